@@ -37,8 +37,9 @@ fn frames(window: &mut Offscreen, what: &str) {
 /// Lets the window work until the robot has driven so far.
 fn drive(window: &mut Offscreen, until: &str) -> Result<(), Box<dyn std::error::Error>> {
     window.run_command_with("robot-run-to", &[until])?;
-    let is_there = |window: &Offscreen| window.controls().iter().any(|control| control.name == "Run");
-    // The panel is read by what a screen reader would say.
+    // The panel is read by what a screen reader would say. While the world is made its button says so too, greyed.
+    let is_there =
+        |window: &Offscreen| window.controls().iter().any(|control| control.name == "Run" && control.is_enabled);
     for _ in 0..100_000 {
         window.advance(0.0);
         if is_there(window) {

@@ -301,9 +301,13 @@ pub struct Predictions {
     pub result: InPlan,
     /// Where explanations start.
     origin: Origin,
-    index_of: BTreeMap<RoomId, usize>,
+    index_of: Arc<BTreeMap<RoomId, usize>>,
     /// See [`Predictions::acquaintance`].
     acquaintance: OnceLock<Option<Acquaintance>>,
+}
+
+fn ids(network: &RoomNetwork) -> impl Iterator<Item = RoomId> {
+    network.rooms.iter().map(|room| room.id)
 }
 
 impl Predictions {
@@ -340,10 +344,11 @@ impl Predictions {
         after: After<'_>,
     ) -> Self {
         let is_kept = !matches!(after, After::Nothing);
-        let before = match after {
-            After::Edit(before) if Arc::ptr_eq(&before.model, &model) => Some(&before.origin),
+        let earlier = match after {
+            After::Edit(before) if Arc::ptr_eq(&before.model, &model) => Some(before),
             _ => None,
         };
+        let before = earlier.map(|before| &before.origin);
         let neighbours = neighbours.unwrap_or(model.about.neighbours);
         // Two rounds of its own: neighbours' predicted labels, or known ones.
         let of_plan = |distributions: Vec<Distribution>| {
@@ -372,6 +377,7 @@ impl Predictions {
             PlanClassifier::Blend(blend) => {
                 let before =
                     before.and_then(|it| if let Origin::Blend(said) = it { Some(said.as_ref()) } else { None });
+                let before = before.zip(earlier.map(|earlier| network.looks_like(&earlier.network)));
                 let opinions = if is_kept {
                     blend.opinions_after(&network, known, before)
                 } else {
@@ -381,7 +387,9 @@ impl Predictions {
                 (NeighbourLabels::Predicted, of_plan(distributions), Origin::Blend(Box::new(opinions)))
             }
         };
-        let index_of = network.rooms.iter().enumerate().map(|(index, room)| (room.id, index)).collect();
+        let same = earlier.filter(|earlier| ids(&earlier.network).eq(ids(&network)));
+        let index_of = same.map(|earlier| earlier.index_of.clone());
+        let index_of = index_of.unwrap_or_else(|| Arc::new(ids(&network).zip(0..).collect()));
         Self {
             choice,
             model,

@@ -1,7 +1,11 @@
 //! How well a simulated robot finds the rooms of plans: explores each, and prints a table and the sums.
 //!
 //!     CARGO_PROFILE_DEV_OPT_LEVEL=2 cargo run --no-default-features --features cli --example explore_plans -- \
-//!         [--noise 1] [--furniture 0] [--seed 1] [--paper] [--pictures DIR] [own] [real=DIR | next=DIR] [PLAN...]
+//!         [--noise 1] [--furniture 0] [--ajar 0] [--seed 1] [--paper] [--pictures DIR] [--store DIR] \
+//!         [own] [real=DIR | next=DIR] [PLAN...]
+//!
+//! `--store` keeps what each exploration saw in a folder and takes it from there the next time: then only the rooms are
+//! found anew, which takes seconds. After a change of what explores, use another folder. `--ajar` is a share of the doors.
 //!
 //! `own` stands for the three bundled plans and 17 that `layouts.rs` makes, `generated` for the latter alone; `real=DIR`
 //! for 20 real plans below a folder, chosen by the rule in `sets.rs`, `next=DIR` for those that come after them.
@@ -12,6 +16,7 @@
 mod layouts;
 mod sets;
 mod sketch;
+mod stored;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -19,21 +24,25 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use enfilade::geometry::areas::Shapes;
-use enfilade::geometry::{Point, Segment};
+use enfilade::geometry::{Point, Segment, Vector};
 use enfilade::robot::doorways::DoorwayOptions;
 use enfilade::robot::explore::Activity;
-use enfilade::robot::rooms::RoomOptions;
+use enfilade::robot::rooms::{RoomOptions, find_rooms};
 use enfilade::robot::score::{Fate, Score, score};
 use enfilade::robot::{Exploration, Pose, RobotOptions, Scanner, World, WorldOptions};
 use sets::{Case, Set};
+use stored::Stored;
 
 /// What is asked for.
 struct Options {
     noise: f64,
     furniture: usize,
+    /// Share of the inner doors that are ajar.
+    ajar: f64,
     seed: u64,
     is_papers: bool,
     pictures: Option<PathBuf>,
+    store: Option<PathBuf>,
 }
 
 /// What came of one or more plans.
@@ -107,7 +116,8 @@ struct Outcome {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut options = Options { noise: 1.0, furniture: 0, seed: 1, is_papers: false, pictures: None };
+    let mut options =
+        Options { noise: 1.0, furniture: 0, ajar: 0.0, seed: 1, is_papers: false, pictures: None, store: None };
     let mut cases: Vec<Case> = Vec::new();
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
@@ -115,6 +125,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         match word.as_str() {
             "--noise" => options.noise = value()?.parse()?,
             "--furniture" => options.furniture = value()?.parse()?,
+            "--ajar" => options.ajar = value()?.parse()?,
+            "--store" => options.store = Some(PathBuf::from(value()?)),
             "--seed" => options.seed = value()?.parse()?,
             "--paper" => options.is_papers = true,
             "--pictures" => options.pictures = Some(PathBuf::from(value()?)),
@@ -131,7 +143,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             },
         }
     }
-    if let Some(folder) = &options.pictures {
+    for folder in [&options.pictures, &options.store].into_iter().flatten() {
         std::fs::create_dir_all(folder)?;
     }
     let next = AtomicUsize::new(0);
@@ -203,8 +215,9 @@ fn now_s(start: std::time::Instant) -> f64 {
 fn explore(case: &Case, options: &Options) -> Result<Outcome, Box<dyn Error>> {
     let clock = std::time::Instant::now();
     let began_s = now_s(clock);
-    let &Options { noise, furniture, seed, .. } = options;
-    let world = Arc::new(World::new(&case.plan, &WorldOptions { furniture, seed, ..WorldOptions::default() }));
+    let &Options { noise, furniture, ajar, seed, .. } = options;
+    let world_options = WorldOptions { furniture, seed, ajar_share: ajar, ..WorldOptions::default() };
+    let world = Arc::new(World::new(&case.plan, &world_options));
     let mut robot = RobotOptions { seed, ..RobotOptions::default() };
     if noise == 0.0 {
         robot = robot.exact();
@@ -217,30 +230,43 @@ fn explore(case: &Case, options: &Options) -> Result<Outcome, Box<dyn Error>> {
     robot.scanners = robot.scanners.iter().map(tuned).collect();
     robot.odometry = robot.odometry.times(noise);
     let reach_m = robot.radius_m + robot.margin_m;
-    let start = world.start(reach_m, seed).ok_or("no space for the robot")?;
-    let mut exploration = Exploration::new(world.clone(), Pose::new(start.x, start.y, 0.0), robot);
-    let has_given_up = exploration.run() != Activity::Finished;
+    let name = case.name.replace(['/', ' '], "_");
+    let file = options.store.as_ref().map(|folder| folder.join(format!("{name}.json")));
+    let before = file.as_ref().filter(|file| file.exists()).map(|file| Stored::read(file)).transpose()?;
+    let seen = match before {
+        Some(seen) => seen,
+        None => {
+            let start = world.start(reach_m, seed).ok_or("no space for the robot")?;
+            let mut exploration = Exploration::new(world.clone(), Pose::new(start.x, start.y, 0.0), robot);
+            let gave_up = exploration.run() != Activity::Finished;
+            let walls = if options.is_papers { exploration.segments() } else { exploration.walls() };
+            let seconds = now_s(clock) - began_s;
+            let seen = Stored { start, walls, free: exploration.free.shapes().clone(), gave_up, seconds };
+            if let Some(file) = &file {
+                seen.write(file)?;
+            }
+            seen
+        }
+    };
+    let start = seen.start;
     let doorways = if options.is_papers { DoorwayOptions::PAPER } else { DoorwayOptions::default() };
-    let found = exploration.rooms(&RoomOptions { doorways, seed, ..RoomOptions::default() });
-    let seconds = now_s(clock) - began_s;
-    let rooms: Vec<Shapes> = found.rooms.iter().map(|room| moved(&room.shapes(), &exploration)).collect();
+    let found = find_rooms(&seen.walls, &seen.free, &RoomOptions { doorways, seed, ..RoomOptions::default() });
+    let rooms: Vec<Shapes> = found.rooms.iter().map(|room| moved(&room.shapes(), start)).collect();
     let edges: Vec<(usize, usize)> = found.sides.iter().filter_map(|sides| Some((sides[0]?, sides[1]?))).collect();
     let as_drawn = score(&world, start, reach_m, &rooms, &edges);
     let joined = score(&world.with_open_rooms_joined(), start, reach_m, &rooms, &edges);
     if let Some(folder) = &options.pictures {
-        let to_world = |segment: &Segment| {
-            Segment::new(exploration.world_from_map.apply(segment.a), exploration.world_from_map.apply(segment.b))
-        };
+        let by = Vector::new(start.x, start.y);
+        let to_world = |segment: &Segment| Segment::new(segment.a + by, segment.b + by);
         let picture = sketch::Outcome {
             world: &world,
             score: &as_drawn,
-            walls: exploration.walls().iter().map(to_world).collect(),
-            free: moved(exploration.free.shapes(), &exploration),
+            walls: seen.walls.iter().map(to_world).collect(),
+            free: moved(&seen.free, start),
             rooms,
             found: &found,
             doorways: found.doorways.iter().map(|doorway| to_world(&doorway.segment)).collect(),
         };
-        let name = case.name.replace(['/', ' '], "_");
         std::fs::write(folder.join(format!("{name}.png")), picture.png()?)?;
     }
     let mut remarks: Vec<String> = Vec::new();
@@ -249,18 +275,15 @@ fn explore(case: &Case, options: &Options) -> Result<Outcome, Box<dyn Error>> {
         remarks.push(format!("{} {name}: {}, IoU {:.2}", room.id, room.fate.name(), room.iou));
     }
     Ok(Outcome {
-        as_drawn: Counts::of(&as_drawn, seconds),
-        joined: Counts::of(&joined, seconds),
-        has_given_up,
+        as_drawn: Counts::of(&as_drawn, seen.seconds),
+        joined: Counts::of(&joined, seen.seconds),
+        has_given_up: seen.gave_up,
         remarks,
     })
 }
 
-/// Areas of the map in the world's frame.
-fn moved(shapes: &Shapes, exploration: &Exploration) -> Shapes {
-    let point = |&[x, y]: &[f64; 2]| {
-        let point = exploration.world_from_map.apply(Point::new(x, y));
-        [point.x, point.y]
-    };
+/// Areas of the map in the world's frame: the robot starts facing along the x axis.
+fn moved(shapes: &Shapes, start: Point) -> Shapes {
+    let point = |&[x, y]: &[f64; 2]| [x + start.x, y + start.y];
     shapes.iter().map(|shape| shape.iter().map(|ring| ring.iter().map(point).collect()).collect()).collect()
 }

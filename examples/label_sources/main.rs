@@ -1,12 +1,17 @@
 //! What classifiers say of buildings they have not seen: of another source than they learned from, and of the same one, by folds that
-//! never split a building. Writes a line for each room and part of the blend, for whatever is to be computed from it.
+//! never split a building. Writes a line for each room and part of the blend, for whatever is to be computed from it. With `--only
+//! given` it prints what given labels are worth to the blend instead.
 //!
 //!     cargo run --release --example label_sources -- [--seed 1] [--folds 4] [--copies 3 --as-drawn 0.5 --scale 0.15 --left-out 0.4]
-//!         [--only source|building] DATA > said.csv
+//!         [--perceptron] [--only source|building|given|typology] DATA > said.csv
+//!
+//! `--perceptron` adds single perceptrons (`mlp`), and the mean of ten that each learned from half of the buildings (`committee`).
 //!
 //! DATA is the folder of real plans, with `authors/school`, `authors/office`, `houses/r2v`, `houses/archilyse` and `kth`.
 
 #![allow(clippy::print_stdout, reason = "an example talks to its user")]
+
+mod half_known;
 
 use std::collections::BTreeSet;
 use std::error::Error;
@@ -66,6 +71,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("office", read("authors/office")?),
         ("house", Collection::Plans(read("houses/r2v")?).at_most(2000, 1).networks().to_vec()),
     ];
+    if options.only == "given" {
+        return half_known::print(&own, &read("houses/archilyse")?, &read("kth")?, &options);
+    }
     println!("way,seed,set,plan,room,label,function,area_m2,length_m,width_m,doors,joined,flat,part,known,s,m,b,c,h");
     if options.only != "building" {
         by_source(&own, &read("houses/archilyse")?, &read("kth")?, &options)?;
@@ -166,17 +174,26 @@ fn by_source(
         }
     }
     if options.perceptron {
-        let by_itself = perceptron(&own[2].1, options.seed)?;
-        for (set, tested) in [("swiss", swiss), ("flats", &flats), ("kth", kth)] {
-            for (plan, network) in tested.iter().enumerate() {
-                tell("source", set, plan, network, "mlp", options.seed, &|known| classify(&by_itself, network, known))?;
+        let everything: Vec<RoomNetwork> = own.iter().flat_map(|(_, of)| of.clone()).collect();
+        for (taught, one, together) in [(&own[2].1, "mlp", "committee"), (&everything, "mlp-all", "committee-all")] {
+            let table = table(taught, options.seed)?;
+            let single = Classifier::train(Algorithm::PERCEPTRON, &table, options.seed, &work)?;
+            let several = committee(taught, options.seed)?;
+            for (set, tested) in [("swiss", swiss), ("flats", &flats), ("kth", kth)] {
+                for (plan, network) in tested.iter().enumerate() {
+                    tell("source", set, plan, network, one, options.seed, &|known| classify(&single, network, known))?;
+                    tell("source", set, plan, network, together, options.seed, &|known| {
+                        classify_together(&several, network, known)
+                    })?;
+                }
             }
         }
     }
     Ok(())
 }
 
-fn perceptron(networks: &[RoomNetwork], seed: u64) -> Result<Classifier, Box<dyn Error>> {
+/// What perceptrons learn from.
+fn table(networks: &[RoomNetwork], seed: u64) -> Result<Table, Box<dyn Error>> {
     let collection = Collection::Plans(networks.to_vec());
     let rows = collection.rows(NeighbourLabels::Predicted).unwrap_or_default();
     let all: Vec<usize> = (0..rows.len()).collect();
@@ -190,7 +207,35 @@ fn perceptron(networks: &[RoomNetwork], seed: u64) -> Result<Classifier, Box<dyn
         seed,
         &Work::quiet(),
     )?;
-    Ok(Classifier::train(Algorithm::PERCEPTRON, &Table::from_rows(&rows)?, seed, &Work::quiet())?)
+    Ok(Table::from_rows(&rows)?)
+}
+
+/// Perceptrons that each learned from a random half of the buildings, as a committee is made of.
+fn committee(networks: &[RoomNetwork], seed: u64) -> Result<Vec<Classifier>, Box<dyn Error>> {
+    let mut buildings: Vec<&str> = networks.iter().map(|network| network.group.as_str()).collect();
+    buildings.sort_unstable();
+    buildings.dedup();
+    let mut members = Vec::new();
+    for member in 0..MEMBERS {
+        let seed = seed_of_part(seed, member);
+        let mut half = buildings.clone();
+        Random::new(seed).shuffle(&mut half);
+        half.truncate(buildings.len().div_ceil(2));
+        let taught: Vec<RoomNetwork> =
+            networks.iter().filter(|network| half.contains(&network.group.as_str())).cloned().collect();
+        members.push(Classifier::train(Algorithm::PERCEPTRON, &table(&taught, seed)?, seed, &Work::quiet())?);
+    }
+    Ok(members)
+}
+
+/// Perceptrons of a committee.
+const MEMBERS: usize = 10;
+
+/// The mean of what several classifiers say.
+fn classify_together(by: &[Classifier], network: &RoomNetwork, known: &[Option<Label>]) -> Vec<Distribution> {
+    let said: Vec<Vec<Distribution>> = by.iter().map(|by| classify(by, network, known)).collect();
+    let of_room = |room: usize| said.iter().map(|of| of[room]).collect::<Vec<_>>();
+    (0..network.rooms.len()).map(|room| Distribution::mean(&of_room(room), &vec![1.0; by.len()])).collect()
 }
 
 fn classify(by: &Classifier, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<Distribution> {
@@ -212,16 +257,22 @@ fn by_building(own: &[(&str, Vec<RoomNetwork>)], options: &Options) -> Result<()
         let of_all = Joint::train_altered(&all, &options.alterations, seed, &work)?;
         for (set, (name, _)) in own.iter().enumerate() {
             let of_own = Joint::train_altered(&split(set, false), &options.alterations, seed, &work)?;
-            let by_itself = match options.perceptron {
-                true => Some(perceptron(&split(set, false).into_iter().cloned().collect::<Vec<_>>(), seed)?),
-                false => None,
+            let taught: Vec<RoomNetwork> = split(set, false).into_iter().cloned().collect();
+            let perceptrons = match options.perceptron {
+                true => {
+                    let single = Classifier::train(Algorithm::PERCEPTRON, &table(&taught, seed)?, seed, &work)?;
+                    vec![("mlp", vec![single]), ("committee", committee(&taught, seed)?)]
+                }
+                false => Vec::new(),
             };
             for (index, (network, of)) in own[set].1.iter().zip(&fold_of[set]).enumerate() {
                 if *of == fold {
                     tell("building", name, index, network, "own", seed, &|known| of_own.predict(network, known))?;
                     tell("building", name, index, network, "all", seed, &|known| of_all.predict(network, known))?;
-                    if let Some(by) = &by_itself {
-                        tell("building", name, index, network, "mlp", seed, &|known| classify(by, network, known))?;
+                    for (part, by) in &perceptrons {
+                        tell("building", name, index, network, part, seed, &|known| {
+                            classify_together(by, network, known)
+                        })?;
                     }
                 }
             }

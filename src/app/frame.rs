@@ -24,8 +24,7 @@ use crate::app::state::Panels;
 use crate::app::tools::Toolbox;
 use crate::app::value::{Call, Value};
 use crate::store::pictures;
-use egui::Ui;
-use egui::{Context, ViewportCommand};
+use egui::{Context, Key, Modifiers, Popup, Ui, ViewportCommand};
 impl App {
     pub(crate) fn new(context: &Context, mode: Mode, dialogs: Dialogs, motion: theme::Motion) -> Self {
         theme::install(context, motion);
@@ -64,6 +63,7 @@ impl App {
         self.take_dropped_files(&context);
         self.take_close_request(&context);
         panels::demo::take_input(self, &context);
+        self.close_list_before_dialog(&context);
         self.take_menu_keys(&context);
         self.take_tool_keys(&context);
         self.take_shortcuts(&context);
@@ -92,11 +92,19 @@ impl App {
         }
     }
 
+    /// Escape closes a list that is open in a dialog, and leaves the dialog open.
+    fn close_list_before_dialog(&self, context: &Context) {
+        let is_pressed = |context: &Context| context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+        if self.dialogs.is_any_open() && Popup::is_any_open(context) && is_pressed(context) {
+            Popup::close_all(context);
+        }
+    }
+
     pub(crate) fn take_shortcuts(&mut self, context: &Context) {
         // Escape has already taken the keyboard from the text field, but belongs to it all the same.
         let is_typing = std::mem::take(&mut self.was_typing) || context.text_edit_focused();
         // An open menu gets all keys; the list below a text field leaves them to the field.
-        let is_menu_open = egui::Popup::is_any_open(context) && !is_typing;
+        let is_menu_open = Popup::is_any_open(context) && !is_typing;
         if self.session.question.is_some() || self.dialogs.is_any_open() || is_menu_open {
             return;
         }

@@ -13,8 +13,8 @@ use crate::store;
 /// What to open the window with.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WindowOptions {
-    /// The plan to show: a file of any known format, or a folder of them; `None` for the welcome page.
-    pub plan: Option<PathBuf>,
+    /// The plans to open, the last on top: files of any known format, or folders of them; none for the welcome page.
+    pub plans: Vec<PathBuf>,
     /// Whether to start with the demonstration.
     pub demo: bool,
 }
@@ -70,9 +70,11 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
         }
         if options.demo {
             app.session.start_demo();
-        } else if let Some(path) = options.plan {
+        } else if let [path] = options.plans.as_slice() {
             // Nothing else is open yet.
-            let _ = app.session.open(Origin::File { path, storey: 0 });
+            let _ = app.session.open(Origin::File { path: path.clone(), storey: 0 });
+        } else if !options.plans.is_empty() {
+            app.session.open_several(options.plans);
         }
         Ok(Box::new(Window { app }) as Box<dyn eframe::App>)
     };

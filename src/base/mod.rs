@@ -1,8 +1,9 @@
-//! What any program needs: cancellable work, random numbers, units, wording, hashes. Knows nothing of
+//! What any program needs: cancellable work, random numbers, units, wording, hashes, lists. Knows nothing of
 //! plans.
 
 pub mod file_name;
 pub mod hash;
+pub mod lists;
 pub mod natural_order;
 pub mod numbers;
 pub mod random;

@@ -18,8 +18,8 @@ pub fn thousands(number: u64) -> String {
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
         if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            // A narrow no-break space, as ISO 80000 recommends.
-            text.push('\u{202f}');
+            // A no-break space: at the narrow one (U+202F), the window would begin a new line.
+            text.push('\u{a0}');
         }
         text.push(digit);
     }
@@ -75,6 +75,6 @@ mod tests {
     fn numbers_read_well() {
         assert_eq!(count(1, "room"), "1 room");
         assert_eq!(count(0, "room"), "0 rooms");
-        assert_eq!(count(1234567, "wall"), "1\u{202f}234\u{202f}567 walls");
+        assert_eq!(count(1234567, "wall"), "1\u{a0}234\u{a0}567 walls");
     }
 }

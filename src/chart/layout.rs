@@ -14,6 +14,9 @@ const TEXT_PX: f64 = 11.5;
 /// Space between things, in logical pixels.
 const GAP: f64 = 8.0;
 
+/// The least height above the plot of a chart with a title: charts side by side begin alike, and a window has room for a button there.
+const LEAST_TOP_PX: f64 = 46.0;
+
 /// The widest that names beside the upright axis may be.
 const WIDEST_NAME_PX: f64 = 190.0;
 
@@ -127,6 +130,9 @@ impl Chart {
         if !self.up.title.is_empty() {
             // Level above the axis, where it is read without turning the head.
             top += TEXT_PX + 6.0;
+        }
+        if !self.title.is_empty() {
+            top = top.max(LEAST_TOP_PX);
         }
         let bottom = height_px - GAP - (TEXT_PX + 7.0) - if self.across.title.is_empty() { 0.0 } else { TEXT_PX + 6.0 };
         let mut up_ticks = ticks(&self.up.scale, up.from, up.to, ((bottom - top) / 36.0).max(2.0) as usize);

@@ -20,10 +20,11 @@ use super::joint::{FirstRound, Joint, JointExplanation};
 use super::why::{OnPlan, Point, Why, and_list, speaks};
 use super::{Algorithm, Classifier, Distribution, Method};
 use crate::base::units::Units;
-use crate::dataset::RoomNetwork;
 use crate::dataset::sets::STANDARD;
+use crate::dataset::{RoomNetwork, places_among};
 use crate::features::NeighbourLabels;
 use crate::labels::Label;
+use crate::plan::RoomId;
 
 /// What takes part in a blend: a typology's own classifiers, and those of all typologies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,9 +94,20 @@ pub struct Blend {
     temperature: f64,
 }
 
-/// What the parts say of a plan's rooms.
+/// What the parts and all together say of a plan's rooms.
 #[derive(Clone, Debug)]
 pub struct Opinions {
+    heard: Arc<Heard>,
+    /// The labels that were given.
+    given: Arc<Given>,
+    /// The blend's distribution of each room: the mean, corrected by the labels that were given ([`Given::corrected`]).
+    pub distributions: Vec<Distribution>,
+}
+
+/// What the parts say, which knows no labels.
+#[derive(Debug)]
+struct Heard {
+    rooms: Vec<RoomId>,
     /// For each part, the distribution of each room.
     of_parts: Vec<Vec<Distribution>>,
     /// For each part that is a joint classifier, its first round: where explanations start.
@@ -104,10 +116,6 @@ pub struct Opinions {
     said: Vec<Option<in_plan::Said>>,
     /// The mean of the parts.
     means: Vec<Distribution>,
-    /// The labels that were given.
-    given: Given,
-    /// The blend's distribution of each room: the mean, corrected by the labels that were given ([`Given::corrected`]).
-    pub distributions: Vec<Distribution>,
 }
 
 /// A name of a part, and what shows that it is the one meant: see [`Member::checksum`].
@@ -161,30 +169,36 @@ impl Blend {
                 None => {}
             }
         }
-        self.together(of_parts, rounds, Vec::new(), network, known)
+        let heard = self.heard(of_parts, rounds, Vec::new(), network, None);
+        self.together(Arc::new(heard), network, known, None)
     }
 
     /// The same of the plan after an edit, to the last bit; `before` is what this blend said of the plan before it, by this
-    /// function too.
+    /// function too, and whether the rooms look as they did then ([`RoomNetwork::looks_like`]).
     pub fn opinions_after(
         &self,
         network: &RoomNetwork,
         known: &[Option<Label>],
-        before: Option<&Opinions>,
+        before: Option<(&Opinions, bool)>,
     ) -> Opinions {
+        if let Some((before, true)) = before {
+            return self.together(before.heard.clone(), network, known, Some((before, true)));
+        }
+        let before = before.map(|(before, _)| before);
+        let heard_before = before.map(|before| before.heard.as_ref());
         let (mut of_parts, mut rounds, mut said) = (Vec::new(), Vec::<Option<FirstRound>>::new(), Vec::new());
         for (index, part) in self.parts.iter().enumerate() {
             match part.model.kind() {
                 Some(Kind::Joint(joint)) => {
                     let other = rounds.iter().flatten().next();
-                    let before = before.and_then(|before| before.rounds.get(index)?.as_ref());
+                    let before = heard_before.and_then(|before| before.rounds.get(index)?.as_ref());
                     let (round, distributions) = joint.predict_after(network, &[], other, before);
                     of_parts.push(distributions);
                     rounds.push(Some(round));
                     said.push(None);
                 }
                 Some(Kind::Each(classifier)) => {
-                    let before = before.and_then(|before| before.said.get(index)?.as_ref());
+                    let before = heard_before.and_then(|before| before.said.get(index)?.as_ref());
                     let neighbours = NeighbourLabels::Predicted;
                     let (result, kept) = in_plan::classify_after(classifier, network, &[], neighbours, before);
                     of_parts.push(result.distributions);
@@ -194,27 +208,57 @@ impl Blend {
                 None => {}
             }
         }
-        self.together(of_parts, rounds, said, network, known)
+        let heard = self.heard(of_parts, rounds, said, network, heard_before);
+        self.together(Arc::new(heard), network, known, before.map(|before| (before, false)))
     }
 
-    fn together(
+    fn heard(
         &self,
         of_parts: Vec<Vec<Distribution>>,
         rounds: Vec<Option<FirstRound>>,
         said: Vec<Option<in_plan::Said>>,
         network: &RoomNetwork,
-        known: &[Option<Label>],
-    ) -> Opinions {
+        before: Option<&Heard>,
+    ) -> Heard {
+        let rooms: Vec<RoomId> = network.rooms.iter().map(|room| room.id).collect();
+        let places = before.map_or_else(Vec::new, |before| places_among(&before.rooms, &rooms));
         let weights: Vec<f64> = self.parts.iter().map(|part| part.weight).collect();
-        let means: Vec<Distribution> = (0..network.rooms.len())
+        let mut of_room: Vec<Distribution> = Vec::with_capacity(weights.len());
+        let means = (0..rooms.len())
             .map(|room| {
-                let said: Vec<Distribution> = of_parts.iter().map(|said| said[room]).collect();
-                Distribution::mean(&said, &weights).at_temperature(self.temperature)
+                let place = places.get(room).copied().flatten();
+                let is_as_before = |before: &&Heard, place: usize| {
+                    let parts = before.of_parts.iter().zip(&of_parts);
+                    parts.fold(true, |all, (before, now)| all & (before[place] == now[room]))
+                };
+                if let Some((before, place)) = before.zip(place).filter(|(before, place)| is_as_before(before, *place))
+                {
+                    return before.means[place];
+                }
+                of_room.clear();
+                of_room.extend(of_parts.iter().map(|said| said[room]));
+                Distribution::mean(&of_room, &weights).at_temperature(self.temperature)
             })
             .collect();
-        let given = Given::of(network, known);
-        let distributions = given.corrected(&means);
-        Opinions { of_parts, rounds, said, means, given, distributions }
+        Heard { rooms, of_parts, rounds, said, means }
+    }
+
+    fn together(
+        &self,
+        heard: Arc<Heard>,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
+        before: Option<(&Opinions, bool)>,
+    ) -> Opinions {
+        if let Some((before, true)) = before
+            && before.given.is_of(known)
+        {
+            return before.clone();
+        }
+        let given_before = before.map(|(before, is_same)| (before.given.as_ref(), is_same));
+        let given = Arc::new(Given::after(network, known, &heard.means, given_before));
+        let distributions = given.corrected(&heard.means);
+        Opinions { heard, given, distributions }
     }
 
     /// Why a room got its label, with areas in these units; `None` for a room that is not in the network. The points are those
@@ -229,7 +273,7 @@ impl Blend {
     ) -> Option<Why> {
         let label = opinions.distributions.get(room)?.label();
         let mut told: Vec<(f64, JointExplanation)> = Vec::new();
-        for (part, round) in self.parts.iter().zip(&opinions.rounds) {
+        for (part, round) in self.parts.iter().zip(&opinions.heard.rounds) {
             if let (Some(Kind::Joint(joint)), Some(round)) = (part.model.kind(), round) {
                 told.push((part.weight, joint.explain_from(round, network, known, room)?));
             }
@@ -239,8 +283,8 @@ impl Blend {
             None => Why { label, points: Vec::new(), conclusion: String::new() },
         };
         let said: Vec<(&Part, Distribution)> =
-            self.parts.iter().zip(&opinions.of_parts).map(|(part, said)| (part, said[room])).collect();
-        let (mean, corrected) = (opinions.means[room], opinions.distributions[room]);
+            self.parts.iter().zip(&opinions.heard.of_parts).map(|(part, said)| (part, said[room])).collect();
+        let (mean, corrected) = (opinions.heard.means[room], opinions.distributions[room]);
         if let Some((speaks, _)) = speaks(label, |of| corrected.probability(of) - mean.probability(of)) {
             let like = opinions.given.like(room);
             let seen = given::words(&like);
@@ -373,7 +417,7 @@ mod tests {
         let opinions = blend.opinions(&network, &[]);
         for (room, said) in opinions.distributions.iter().enumerate() {
             for label in Label::ALL {
-                let of = |part: usize| opinions.of_parts[part][room].probability(label);
+                let of = |part: usize| opinions.heard.of_parts[part][room].probability(label);
                 assert!((said.probability(label) - 0.75 * of(0) - 0.25 * of(1)).abs() < 1e-9);
             }
             let why = blend.why(&opinions, &network, &[], room, Units::Metric).unwrap();

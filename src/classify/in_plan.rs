@@ -1,6 +1,8 @@
 //! Classifying all rooms of a plan at once: unknown labels of neighbours are predicted too, and
 //! predictions repeated until none changes.
 
+use std::sync::Arc;
+
 use super::{Algorithm, Classifier, Distribution};
 use crate::base::random::seed_of_part;
 use crate::base::work::{Cancelled, Work};
@@ -31,11 +33,13 @@ pub struct InPlan {
 #[derive(Clone, Debug, Default)]
 pub struct Said {
     rooms: Vec<RoomId>,
-    /// For each room its features in each round that they changed, with what was said.
-    of_rooms: Vec<Vec<(Features, Distribution)>>,
+    of_rooms: Vec<Kept>,
 }
 
-/// More rounds than these are not kept of a room.
+/// The features of a room, with what was said of them: those of the last rounds first.
+type Kept = Arc<[(Features, Distribution)]>;
+
+/// More features than these are not kept of a room.
 const MOST_KEPT: usize = 4;
 
 /// Classifies the rooms of a plan. `known` holds, for each room of the network, the label that may be
@@ -59,45 +63,51 @@ pub fn classify_after(
     before: Option<&Said>,
 ) -> (InPlan, Said) {
     let rooms: Vec<RoomId> = network.rooms.iter().map(|room| room.id).collect();
-    let places = before.map_or_else(Vec::new, |before| places_among(&before.rooms, &rooms));
-    let mut said = Said { of_rooms: vec![Vec::new(); rooms.len()], rooms };
-    let said_before = |room: usize, features: &Features| {
-        let kept = before?.of_rooms.get((*places.get(room)?)?)?;
-        kept.iter().find(|(of, _)| of == features).map(|(_, distribution)| *distribution)
+    let count = rooms.len();
+    let mut of_rooms: Vec<Option<Kept>> = match before {
+        None => vec![None; count],
+        Some(before) => {
+            let places = places_among(&before.rooms, &rooms);
+            places.into_iter().map(|place| before.of_rooms.get(place?).cloned()).collect()
+        }
     };
-    let mut round = |seen: &[Label]| {
-        let features: Vec<Features> = (0..network.rooms.len()).map(|room| network.features(room, seen)).collect();
-        let ask = |(room, features): (usize, &Features)| {
-            let kept = &mut said.of_rooms[room];
-            if let Some((_, distribution)) = kept.iter().find(|(of, _)| of == features) {
-                return *distribution;
-            }
-            let distribution = said_before(room, features).unwrap_or_else(|| classifier.predict(&features.values()));
-            if kept.len() < MOST_KEPT {
-                kept.push((*features, distribution));
-            }
-            distribution
-        };
-        let distributions = features.iter().enumerate().map(ask).collect();
-        InPlan { distributions, features, rounds: 1, settled: false }
+    let mut ask = |room: usize, features: &Features| {
+        let kept = of_rooms[room].as_deref().unwrap_or_default();
+        if let Some((_, distribution)) = kept.iter().find(|(of, _)| of == features) {
+            return *distribution;
+        }
+        let distribution = classifier.predict(&features.values());
+        let others = kept.iter().copied().take(MOST_KEPT - 1);
+        of_rooms[room] = Some(std::iter::once((*features, distribution)).chain(others).collect());
+        distribution
     };
     let mut seen = network.seen_labels(known, neighbours);
-    let mut result = round(&seen);
-    if neighbours != NeighbourLabels::Predicted {
-        return (InPlan { settled: true, ..result }, said);
-    }
-    while result.rounds < MOST_ROUNDS {
+    let features: Vec<Features> = (0..count).map(|room| network.features(room, &seen)).collect();
+    let distributions = features.iter().enumerate().map(|(room, features)| ask(room, features)).collect();
+    let settled = neighbours != NeighbourLabels::Predicted;
+    let mut result = InPlan { distributions, features, rounds: 1, settled };
+    let mut is_new = vec![false; count];
+    while !result.settled && result.rounds < MOST_ROUNDS {
         let known = |room: usize| known.get(room).copied().flatten();
-        let next: Vec<Label> = (0..network.rooms.len())
-            .map(|room| known(room).unwrap_or_else(|| result.distributions[room].label()))
-            .collect();
-        if next == seen {
-            return (InPlan { settled: true, ..result }, said);
+        for (room, is_new) in is_new.iter_mut().enumerate() {
+            let next = known(room).unwrap_or_else(|| result.distributions[room].label());
+            *is_new = next != seen[room];
+            seen[room] = next;
         }
-        seen = next;
-        result = InPlan { rounds: result.rounds + 1, ..round(&seen) };
+        if is_new.iter().all(|is_new| !is_new) {
+            result.settled = true;
+            break;
+        }
+        result.rounds += 1;
+        for (room, of) in network.rooms.iter().enumerate() {
+            // Of a room whose neighbours look as before, the same is said.
+            if of.doors.iter().filter_map(|door| door.to).any(|other| is_new.get(other) == Some(&true)) {
+                result.features[room] = network.features(room, &seen);
+                result.distributions[room] = ask(room, &result.features[room]);
+            }
+        }
     }
-    (result, said)
+    (result, Said { rooms, of_rooms: of_rooms.into_iter().map(Option::unwrap_or_default).collect() })
 }
 
 /// Folds for giving training rooms the predicted labels of their neighbours.

@@ -116,7 +116,10 @@ fn measures_of(network: &RoomNetwork) -> Option<Measures> {
     let openings: usize = network.rooms.iter().map(|room| room.doors.len()).sum();
     let doors = network.rooms.iter().flat_map(|room| &room.doors);
     let passages = doors.filter(|door| door.kind == OpeningKind::Passage).count();
-    let ends = share(&|room| room.doors.iter().filter_map(|door| door.to).collect::<BTreeSet<_>>().len() <= 1);
+    let ends = share(&|room| {
+        let mut joined = room.doors.iter().filter_map(|door| door.to);
+        joined.next().is_none_or(|first| joined.all(|other| other == first))
+    });
     let largest = areas.last().map_or(0.0, |largest| largest - median);
     let measures = Measures::from([
         rooms.ln(),

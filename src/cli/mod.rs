@@ -311,7 +311,7 @@ pub fn command() -> Command {
         .about("Draw floor plans, label their rooms, predict labels by building type, and export datasets.")
         .long_about(
             "Draw floor plans, label their rooms, predict labels by building type, and export datasets.\n\nWithout a \
-             subcommand the window opens, with PLAN if you give one.",
+             subcommand the window opens, with the plans that you give.",
         )
         .after_help(
             "Use '-' instead of a file for stdin or stdout. Exit codes: 0 done, 1 something is wrong with the input, \
@@ -320,8 +320,9 @@ pub fn command() -> Command {
         .arg(
             Arg::new("plan")
                 .value_name("PLAN")
+                .num_args(0..)
                 .value_parser(clap::value_parser!(PathBuf))
-                .help("Plan to open in the window"),
+                .help("Plans to open in the window"),
         )
         .arg(
             Arg::new("demo")
@@ -365,8 +366,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, terminal: &mut Termina
             None => Err(CliError::call(format!("unknown subcommand {name}"))),
         },
         None => {
-            let plan = matches.get_one::<PathBuf>("plan").map(PathBuf::as_path);
-            open::open(plan, matches.get_flag("demo"), terminal)
+            let plans: Vec<PathBuf> = matches.get_many("plan").into_iter().flatten().cloned().collect();
+            open::open(&plans, matches.get_flag("demo"), terminal)
         }
     };
     let flushed = terminal.out.flush().map_err(CliError::from);

@@ -1,6 +1,8 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
+use imbl::ordmap::DiffItem;
+
 use super::fingerprint::{Prints, RoomPrint};
 use super::{BY_SCHEME, LeftOut, Row};
 use crate::edit;
@@ -8,7 +10,7 @@ use crate::features::{Analysis, Features, NeighbourLabels, RoomAnalysis, RoomSta
 use crate::geometry::{hull, polygon, runs};
 use crate::labels::{Label, Schemes, Typology};
 use crate::plan::titles::room_keys;
-use crate::plan::{Joint, LabelOrigin, Meta, OpeningId, OpeningKind, Plan, Room, RoomId};
+use crate::plan::{LabelOrigin, Meta, OpeningId, OpeningKind, Plan, Room, RoomId};
 use crate::topology::{Connection, RoomShape};
 
 /// The flats of a storey, and what they share. Rooms by their index in the network, ascending. See `flats`.
@@ -45,13 +47,23 @@ pub struct RoomNetwork {
     pub flats: OnceLock<Option<Flats>>,
 }
 
-/// For each of these rooms its place among those `before`; `None` for one that is new.
+/// For each of these rooms its place among those `before`; `None` for one that is new. Quick where few have come or gone.
 pub fn places_among(before: &[RoomId], rooms: &[RoomId]) -> Vec<Option<usize>> {
-    if before == rooms {
-        return (0..rooms.len()).map(Some).collect();
-    }
-    let places: BTreeMap<RoomId, usize> = before.iter().enumerate().map(|(place, &room)| (room, place)).collect();
-    rooms.iter().map(|room| places.get(room).copied()).collect()
+    let mut all: BTreeMap<RoomId, usize> = BTreeMap::new();
+    let mut next = 0;
+    let place = |room: &RoomId| {
+        // Most rooms follow each other as before, but for some that have gone.
+        let near = before.iter().skip(next).take(8).position(|other| other == room).map(|ahead| next + ahead);
+        let place = near.or_else(|| {
+            if all.is_empty() {
+                all = before.iter().enumerate().map(|(place, &room)| (room, place)).collect();
+            }
+            all.get(room).copied()
+        });
+        next = place.map_or(next, |place| place + 1);
+        place
+    };
+    rooms.iter().map(place).collect()
 }
 
 /// A room of a [`RoomNetwork`].
@@ -136,6 +148,8 @@ pub struct NetworkDoor {
 pub struct Measured {
     /// The rooms in the order of [`room_keys`].
     keys: Arc<Vec<(RoomId, String)>>,
+    /// For each of these its index in the analysed shapes.
+    places: Arc<Vec<Option<u32>>>,
     prints: Arc<Prints>,
     /// In the order of the analysed shapes; `None` for a room that encloses no area.
     forms: Arc<Vec<Option<Form>>>,
@@ -145,8 +159,10 @@ impl Measured {
     /// Measures the rooms of an analysed plan.
     pub fn new(plan: &Plan, analysis: &Analysis) -> Self {
         let forms = analysis.shapes.all().iter().zip(&analysis.rooms).map(|(shape, room)| form_of(shape, room));
+        let keys = room_keys(plan);
         Self {
-            keys: Arc::new(room_keys(plan)),
+            places: Arc::new(places_of(&keys, analysis)),
+            keys: Arc::new(keys),
             prints: Arc::new(Prints::new(&analysis.shapes)),
             forms: Arc::new(forms.collect()),
         }
@@ -154,10 +170,22 @@ impl Measured {
 
     /// The same after an edit, from what was measured before it: only what has changed is measured again.
     pub fn after(plan: &Plan, analysis: &Analysis, before: &Analysis, measured: &Self) -> Self {
-        let keys =
-            if plan.rooms.ptr_eq(&before.plan().rooms) { measured.keys.clone() } else { Arc::new(room_keys(plan)) };
+        // Keys follow from names and ids alone.
+        let is_key_kept = |item: DiffItem<'_, '_, RoomId, Arc<Room>>| match item {
+            DiffItem::Update { old: (_, old), new: (_, new) } => old.name == new.name && old.source_id == new.source_id,
+            DiffItem::Add(..) | DiffItem::Remove(..) => false,
+        };
+        let earlier = &before.plan().rooms;
+        let (keys, places) = match plan.rooms.ptr_eq(earlier) || plan.rooms.diff(earlier).all(is_key_kept) {
+            true => (measured.keys.clone(), measured.places.clone()),
+            false => {
+                let keys = room_keys(plan);
+                let places = places_of(&keys, analysis);
+                (Arc::new(keys), Arc::new(places))
+            }
+        };
         if Arc::ptr_eq(&analysis.shapes, &before.shapes) {
-            return Self { keys, ..measured.clone() };
+            return Self { keys, places, ..measured.clone() };
         }
         let mut known = before.shapes.all().iter().zip(measured.forms.iter()).peekable();
         let forms = analysis.shapes.all().iter().zip(&analysis.rooms).map(|(shape, room)| {
@@ -167,8 +195,12 @@ impl Measured {
         });
         let forms = Arc::new(forms.collect());
         let prints = Arc::new(Prints::after(&analysis.shapes, &before.shapes, &measured.prints));
-        Self { keys, prints, forms }
+        Self { keys, places, prints, forms }
     }
+}
+
+fn places_of(keys: &[(RoomId, String)], analysis: &Analysis) -> Vec<Option<u32>> {
+    keys.iter().map(|(id, _)| Some(analysis.shapes.index_of(*id)? as u32)).collect()
 }
 
 fn form_of(shape: &RoomShape, room: &RoomAnalysis) -> Option<Form> {
@@ -210,9 +242,10 @@ impl RoomNetwork {
         // By the index of the shape.
         let mut place_of: Vec<Option<usize>> = vec![None; analysis.rooms.len()];
         let mut shapes: Vec<usize> = Vec::with_capacity(analysis.rooms.len());
-        for (id, key) in measured.keys.iter() {
-            let id = *id;
-            let (Some(room), Some(index)) = (plan.room(id), analysis.shapes.index_of(id)) else { continue };
+        let by_index: Vec<&Arc<Room>> = plan.rooms.values().collect();
+        for ((id, key), index) in measured.keys.iter().zip(measured.places.iter()) {
+            let (id, Some(index)) = (*id, index.map(|index| index as usize)) else { continue };
+            let Some(&room) = by_index.get(index) else { continue };
             let result = &analysis.rooms[index];
             match result.status {
                 RoomStatus::NotClassified => {
@@ -249,15 +282,12 @@ impl RoomNetwork {
             });
         }
         for (room, index) in rooms.iter_mut().zip(shapes) {
-            let id = room.id;
-            let door = |connection: &Connection| {
-                let [one, other] = connection.sides;
-                let side = if one == Joint::Room(id) { other } else { one };
-                let other = side.room().filter(|&other| other != id);
-                let to = other.and_then(|other| place_of[analysis.shapes.index_of(other)?]);
-                NetworkDoor { opening: connection.opening, kind: connection.kind, to }
+            let door = |(connection, other): (&Connection, Option<usize>)| NetworkDoor {
+                opening: connection.opening,
+                kind: connection.kind,
+                to: other.and_then(|other| place_of[other]),
             };
-            room.doors = analysis.graph.of_room(index).map(door).collect();
+            room.doors = analysis.graph.doors_of(index).map(door).collect();
         }
         let meta = plan.meta();
         let building = meta.building_or_name().to_owned();
@@ -301,6 +331,22 @@ impl RoomNetwork {
             it.label = plan.room(it.id).and_then(|room| RoomStatus::of(plan, schemes, room).label());
         }
         network
+    }
+
+    /// Whether its rooms are those of another, and look the same to a classifier that knows no labels.
+    pub fn looks_like(&self, other: &Self) -> bool {
+        let is_same = |room: &NetworkRoom, other: &NetworkRoom| {
+            let doors = room.doors.iter().zip(&other.doors);
+            room.id == other.id
+                && room.temporary == other.temporary
+                && room.area_m2 == other.area_m2
+                && room.axes_ratio == other.axes_ratio
+                && room.form == other.form
+                && room.doors.len() == other.doors.len()
+                && doors.fold(true, |all, (door, other)| all & (door.kind == other.kind && door.to == other.to))
+        };
+        self.rooms.len() == other.rooms.len()
+            && self.rooms.iter().zip(&other.rooms).all(|(room, other)| is_same(room, other))
     }
 
     /// The labels that are known, one for each room.

@@ -24,10 +24,18 @@ impl RoomStatus {
     /// The status of a room under the schemes and the plan's typology. The room's own label comes first;
     /// a prediction that nobody has accepted does not count.
     pub fn of(plan: &Plan, schemes: &Schemes, room: &Room) -> Self {
-        if let Some(given) = room.label.filter(|given| given.origin != LabelOrigin::Prediction) {
-            return Self::Labelled(given.label);
-        }
-        match schemes.meaning(plan.meta().typology.as_ref(), &room.function) {
+        Self::given(room).unwrap_or_else(|| Self::by_scheme(plan, schemes, &room.function))
+    }
+
+    /// By the room's own label.
+    fn given(room: &Room) -> Option<Self> {
+        let given = room.label.filter(|given| given.origin != LabelOrigin::Prediction)?;
+        Some(Self::Labelled(given.label))
+    }
+
+    /// By the scheme.
+    fn by_scheme(plan: &Plan, schemes: &Schemes, function: &str) -> Self {
+        match schemes.meaning(plan.meta().typology.as_ref(), function) {
             Some(Meaning::Labelled(label)) => Self::Labelled(label),
             Some(Meaning::NotClassified) => Self::NotClassified,
             None => Self::Unlabelled,
@@ -146,13 +154,18 @@ pub fn analyse_after(
         while known.next_if(|(earlier, _)| earlier.id < shape.id).is_some() {}
         known.next_if(|(earlier, _)| *earlier == shape).map(|(_, room)| room.axes)
     };
+    // A function means the same in every room.
+    let mut by_function: BTreeMap<&str, RoomStatus> = BTreeMap::new();
     let rules = schemes.temporary_rules(plan.meta().typology.as_ref());
     let mut rooms: Vec<RoomAnalysis> = plan
         .rooms()
         .enumerate()
         .map(|(index, (id, room))| {
             let shape = &shapes.all()[index];
-            let status = RoomStatus::of(plan, schemes, room);
+            let status = RoomStatus::given(room).unwrap_or_else(|| {
+                let by_scheme = || RoomStatus::by_scheme(plan, schemes, &room.function);
+                *by_function.entry(room.function.as_str()).or_insert_with(by_scheme)
+            });
             let axes = axes_before(shape).unwrap_or_else(|| runs::axes(&shape.outer, &shape.holes));
             let area_m2 = shape.area_m2();
             let features = axes.filter(|_| area_m2 > 0.0).map(|axes| Features {
@@ -176,11 +189,9 @@ pub fn analyse_after(
         .collect();
     for (index, room) in rooms.iter_mut().enumerate() {
         let Some(features) = &mut room.features else { continue };
-        for connection in graph.of_room(index) {
-            let other = other_side(connection.sides, room.id);
+        for (_, other) in graph.doors_of(index) {
             // An opening from a room to itself leads nowhere new: it counts only in d.
-            let label = other.room().filter(|&id| id != room.id).and_then(|id| seen[shapes.index_of(id)?]);
-            if let Some(label) = label {
+            if let Some(label) = other.and_then(|other| seen[other]) {
                 features.doors_to[label.index()] += 1;
             }
         }

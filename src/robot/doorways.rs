@@ -170,7 +170,8 @@ pub fn gaps(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptions) 
         }
         for end in [End { at: segment.b, onward: along }, End { at: segment.a, onward: -along }] {
             gaps.extend(between_ends(end, i, &long, &grid, options));
-            gaps.extend(to_wall(end, &long, &grid, options));
+            let ahead = to_wall(end, &long, &grid, options);
+            gaps.extend(ahead.map(|gap| if options.must_widen { before_stub(gap, boundary) } else { gap }));
         }
     }
     gaps.retain(|&gap| is_free(gap, boundary));
@@ -226,19 +227,28 @@ fn is_aligned(i: usize, long: &[Segment], grid: &RayGrid, options: &DoorwayOptio
     })
 }
 
+/// A wall bends by at most this angle at a doorway.
+const MOST_BEND_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
+
 /// Gaps from an end to the facing ends of collinear segments.
 fn between_ends(end: End, own: usize, long: &[Segment], grid: &RayGrid, options: &DoorwayOptions) -> Vec<Segment> {
     let reach = Bounds::of([end.at, end.at + end.onward * options.widest_passage_m]).inflated(0.3);
     let mut gaps = Vec::new();
     for i in grid.near(reach).into_iter().filter(|&i| i != own) {
         let other = long[i];
-        if !are_parallel(other, Segment::new(end.at, end.at + end.onward), options.collinear_rad) {
+        let ahead = Segment::new(end.at, end.at + end.onward);
+        let is_straight = are_parallel(other, ahead, options.collinear_rad);
+        // Beyond the paper a wall may bend at the doorway, where both of its parts are more than noise at a corner.
+        let may_bend = options.must_widen && long[own].length().min(other.length()) >= 2.0 * options.shortest_m;
+        let is_bent = may_bend && are_parallel(other, ahead, MOST_BEND_RAD);
+        if !is_straight && !is_bent {
             continue;
         }
+        let widest_m = if is_straight { options.widest_passage_m } else { options.widest_m };
         let (near, far) = if end.onward.dot(other.vector()) > 0.0 { (other.a, other.b) } else { (other.b, other.a) };
         let way = near - end.at;
         let (ahead_m, aside_m) = (way.dot(end.onward), way.cross(end.onward).abs());
-        let fits = (options.narrowest_m..=options.widest_passage_m).contains(&ahead_m)
+        let fits = (options.narrowest_m..=widest_m).contains(&ahead_m)
             && aside_m <= options.aside_m.max(ahead_m * options.collinear_rad.tan() * 0.5)
             && (far - near).dot(end.onward) > 0.0;
         if fits {
@@ -248,18 +258,48 @@ fn between_ends(end: End, own: usize, long: &[Segment], grid: &RayGrid, options:
     gaps
 }
 
+/// So many lines ahead of an end are looked at: noise about a stub of wall, then the wall.
+const MOST_HITS: usize = 3;
+
 /// The gap straight ahead from an end to the wall it meets.
 fn to_wall(end: End, long: &[Segment], grid: &RayGrid, options: &DoorwayOptions) -> Option<Segment> {
     // Past the end itself and whatever is joined to it.
-    let from = end.at + end.onward * 0.02;
-    let hit = grid.cast(from, end.onward, options.widest_m)?;
-    let to = from + end.onward * hit.distance_m;
-    let gap = Segment::new(end.at, to);
+    let mut from = end.at + end.onward * 0.02;
     // Beyond the paper squarely, or else it is not where the passage is narrowest: a short segment, the reveal of
-    // a door say, points anywhere.
+    // a door say, points anywhere. Noise about a stub of wall in front of the wall is passed over.
     let least_rad = if options.must_widen { SQUARE_RAD } else { options.collinear_rad };
-    let meets = !are_parallel(long[hit.segment], gap, least_rad);
-    (meets && (options.narrowest_m..=options.widest_m).contains(&gap.length())).then_some(gap)
+    let most = if options.must_widen { MOST_HITS } else { 1 };
+    for _ in 0..most {
+        let hit = grid.cast(from, end.onward, options.widest_m - end.at.distance(from))?;
+        let to = from + end.onward * hit.distance_m;
+        let gap = Segment::new(end.at, to);
+        if !are_parallel(long[hit.segment], gap, least_rad) {
+            return (options.narrowest_m..=options.widest_m).contains(&gap.length()).then_some(gap);
+        }
+        if long[hit.segment].length() >= 2.0 * options.shortest_m {
+            return None;
+        }
+        from = to + end.onward * 0.02;
+    }
+    None
+}
+
+/// A stub of wall beside a door in a corner may be shorter than any line of the map; it is at most this long, in metres.
+const LONGEST_STUB_M: f64 = 0.25;
+
+/// Less is what the floor ends before a wall anyway.
+const SHORTEST_STUB_M: f64 = 0.05;
+
+/// A gap up to a wall without the stub in front of that wall: up to where the floor ends.
+fn before_stub(gap: Segment, boundary: &RayGrid) -> Segment {
+    let Some(along) = gap.vector().unit() else { return gap };
+    let (middle, half_m) = (gap.midpoint(), gap.length() / 2.0);
+    match boundary.cast(middle, along, half_m) {
+        Some(hit) if (SHORTEST_STUB_M..=LONGEST_STUB_M).contains(&(half_m - hit.distance_m)) => {
+            Segment::new(gap.a, middle + along * hit.distance_m)
+        }
+        _ => gap,
+    }
 }
 
 /// A gap up to a wall meets it at this angle at least.

@@ -14,7 +14,7 @@ use super::scanner::{Scanner, back_to_back};
 use super::split_and_merge::SplitOptions;
 use super::{Mapper, MapperOptions, Pose, RayGrid, Scan, World};
 use crate::base::random::{Random, seed_of_part};
-use crate::geometry::{Point, Segment, polygon};
+use crate::geometry::{Point, Segment};
 
 /// The robot and its exploration parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -203,15 +203,31 @@ pub struct PathStep {
 /// The number of places on a frontier that are looked for.
 const PLACES: usize = 4;
 
+/// If none of them can be seen from anywhere, places this far apart, in metres, and at most so many. A room seen through
+/// its door at a glancing angle is a thin wedge: its frontier is long, and only its end at the door can be seen from
+/// places within reach.
+const PLACES_APART_M: f64 = 0.5;
+const MOST_PLACES: usize = 24;
+
 /// Points on the known floor just before a frontier: before the middles of its longest stretches, since its
-/// own middle may lie in a corner that is seen from nowhere.
-fn places_on(frontier: &Frontier) -> Vec<Point> {
+/// own middle may lie in a corner that is seen from nowhere; if `everywhere`, all along it.
+fn places_on(frontier: &Frontier, everywhere: bool) -> Vec<Point> {
     let stretches = frontier.line.windows(2).map(|pair| Segment::new(pair[0], pair[1]));
     let mut stretches: Vec<Segment> = stretches.collect();
+    if everywhere {
+        let apart_m = PLACES_APART_M.max(frontier.length_m / MOST_PLACES as f64);
+        let pieces = |stretch: Segment| {
+            let count = (stretch.length() / apart_m).ceil().max(1.0) as usize;
+            let at = move |i: usize| stretch.a.lerp(stretch.b, i as f64 / count as f64);
+            (0..count).map(move |i| Segment::new(at(i), at(i + 1)))
+        };
+        stretches = stretches.into_iter().flat_map(pieces).collect();
+    }
     // The sort is stable: of equal ones the first.
     stretches.sort_by(|p, q| q.length().total_cmp(&p.length()));
     let inward = |stretch: &Segment| Some(stretch.midpoint() + stretch.vector().left().unit()? * 0.05);
-    stretches.iter().take(PLACES).filter_map(inward).collect()
+    let most = if everywhere { MOST_PLACES } else { PLACES };
+    stretches.iter().take(most).filter_map(inward).collect()
 }
 
 impl Exploration {
@@ -355,6 +371,16 @@ impl Exploration {
 
     /// Chooses the cheapest frontier, or finishes.
     fn choose(&mut self) {
+        self.goal = self.next_goal();
+        self.activity = if self.goal.is_some() { Activity::Driving } else { Activity::Finished };
+        if self.goal.is_none() {
+            self.mapper.finish();
+            self.settle();
+        }
+    }
+
+    /// The cheapest view of a frontier that has not been given up.
+    fn next_goal(&self) -> Option<Goal> {
         let open: Vec<(Frontier, usize)> = self
             .frontiers()
             .into_iter()
@@ -364,40 +390,45 @@ impl Exploration {
             })
             .filter(|(_, visits)| *visits < VISITS)
             .collect();
-        let radii_m = self.planned_radii_m();
-        self.goal = VIEWS_M
-            .into_iter()
-            .flat_map(|view_m| radii_m.map(|radius_m| (view_m, radius_m)))
-            .find_map(|(view_m, radius_m)| self.cheapest(&open, radius_m, view_m));
-        self.activity = if self.goal.is_some() { Activity::Driving } else { Activity::Finished };
-        if self.goal.is_none() {
-            self.mapper.finish();
-            self.settle();
-        }
-    }
-
-    fn cheapest(&self, open: &[(Frontier, usize)], radius_m: f64, view_m: f64) -> Option<Goal> {
         if open.is_empty() {
             return None;
         }
         let mut routes = Routes::around(self.free.shapes(), self.pose.position(), &self.touched);
-        let edges = self.free.shapes().iter().flatten().map(crate::geometry::areas::points);
-        let edges: Vec<Segment> = edges.flat_map(|ring| polygon::edges(&ring).collect::<Vec<_>>()).collect();
-        let grid = RayGrid::new(edges);
+        let boundary = boundary(self.free.shapes());
+        let radii_m = self.planned_radii_m();
+        [false, true].into_iter().find_map(|everywhere| {
+            VIEWS_M.into_iter().flat_map(|view_m| radii_m.map(|radius_m| (view_m, radius_m))).find_map(
+                |(view_m, radius_m)| self.cheapest(&open, everywhere, &mut routes, &boundary, radius_m, view_m),
+            )
+        })
+    }
+
+    fn cheapest(
+        &self,
+        open: &[(Frontier, usize)],
+        everywhere: bool,
+        routes: &mut Routes,
+        boundary: &RayGrid,
+        radius_m: f64,
+        view_m: f64,
+    ) -> Option<Goal> {
         let spacing_m = VIEW_SPACING_M * view_m / VIEWS_M[0];
         // A lower bound on the cost of viewing from a cell, beyond the route there.
         let mut views: Vec<(usize, usize, f64)> = Vec::new();
         for (index, (frontier, visits)) in open.iter().enumerate() {
             let worth = PER_FRONTIER_METRE * frontier.length_m.min(LONGEST_WORTH_M);
-            for seen in places_on(frontier) {
+            for seen in places_on(frontier, everywhere) {
                 for cell in routes.cells_near(seen, view_m, spacing_m, radius_m) {
                     let from = routes.centre(cell);
-                    if !grid.blocks(from, seen) && (*visits == 0 || !self.was_seen_from(frontier, from)) {
+                    if !boundary.blocks(from, seen) && (*visits == 0 || !self.was_seen_from(frontier, from)) {
                         let extra = PER_METRE[(*visits).min(1)] * from.distance(seen) - worth;
                         views.push((cell, index, extra));
                     }
                 }
             }
+        }
+        if views.is_empty() {
+            return None;
         }
         views.sort_by(|p, q| p.0.cmp(&q.0).then(p.2.total_cmp(&q.2)).then(p.1.cmp(&q.1)));
         let least_extra = views.iter().map(|view| view.2).fold(f64::INFINITY, f64::min);

@@ -93,7 +93,7 @@ pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) ->
             None => break (pieces, sides),
         };
     };
-    if close_mouths(&mouths, &mut found, &mut pieces, &boundary, options) {
+    if close_mouths(&mouths, &mut found, &mut pieces, options) {
         sides = sides_of(&found, &pieces);
     }
     let (points, sights, group_of) = scatter(&pieces, options);
@@ -152,13 +152,22 @@ const ROOMY_SHARE: f64 = 1.5;
 /// How far in front of a mouth that disc may be, in metres.
 const ROOMY_WITHIN_M: f64 = 2.5;
 
-/// Whether there is a room in this direction from a mouth.
+/// Whether there is a room in this direction from a mouth: space before it, straight ahead or to one side, for a disc
+/// wider than the mouth. `boundary` holds the edges of the floor there, doorways closed.
 fn is_roomy(mouth: &Doorway, way: Vector, boundary: &RayGrid) -> bool {
     let middle = mouth.segment.midpoint();
-    let ahead_m = boundary.cast(middle, way, ROOMY_WITHIN_M).map_or(ROOMY_WITHIN_M, |hit| hit.distance_m);
+    let along = way.left();
     let radius_m = ROOMY_SHARE * mouth.width_m / 2.0;
-    let steps = (ahead_m / 0.1).floor() as usize;
-    (1..=steps).any(|step| boundary.distance_m(middle + way * (0.1 * step as f64), radius_m) >= radius_m)
+    let aside_m = radius_m - mouth.width_m / 2.0;
+    let steps = (ROOMY_WITHIN_M / 0.1).floor() as usize;
+    [0.0, aside_m, -aside_m].into_iter().any(|aside_m| {
+        let from = middle + way * 0.05 + along * aside_m;
+        let ahead_m = boundary.cast(from, way, ROOMY_WITHIN_M).map_or(ROOMY_WITHIN_M, |hit| hit.distance_m);
+        (1..=steps)
+            .map(|step| 0.1 * step as f64)
+            .take_while(|&at_m| at_m <= ahead_m)
+            .any(|at_m| boundary.distance_m(from + way * at_m, radius_m) >= radius_m)
+    })
 }
 
 /// Cuts alcoves off their rooms, and corridors off rooms that they open into; returns whether there were any.
@@ -166,7 +175,6 @@ fn close_mouths(
     mouths: &[Doorway],
     found: &mut Vec<Doorway>,
     pieces: &mut Vec<Vec<Ring>>,
-    boundary: &RayGrid,
     options: &RoomOptions,
 ) -> bool {
     let before = found.len();
@@ -199,8 +207,9 @@ fn close_mouths(
                 doors_of.iter().flatten().any(|&side| side == Some(part))
                     && area_m2(&parts[part]) >= mouth.width_m.powi(2)
             };
-            (is_corridor(one) && is_roomy(mouth, -mouth.across(), boundary))
-                || (is_corridor(other) && is_roomy(mouth, mouth.across(), boundary))
+            let edges_of = |part: usize| RayGrid::new(edges(&vec![parts[part].clone()]));
+            (is_corridor(one) && is_roomy(mouth, -mouth.across(), &edges_of(other)))
+                || (is_corridor(other) && is_roomy(mouth, mouth.across(), &edges_of(one)))
         };
         if (is_alcove && !has_door) || opens_into_room() {
             found.push(mouth.clone());

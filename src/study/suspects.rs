@@ -497,7 +497,7 @@ mod tests {
         let [small, big, corridor] =
             [Label::SmallRoom, Label::BigRoom, Label::Corridor].map(|given| odds_of_mistake(&said, given));
         assert!(small > 2.0 * corridor && (small - big).abs() < 1e-9, "{small} {big} {corridor}");
-        assert!(odds_of_mistake(&said, Label::MediumRoom) < 0.3);
+        assert!(odds_of_mistake(&said, Label::MediumRoom) < 0.5);
         // On average the odds are those of the probability alone.
         for truth in Label::ALL {
             let sure =

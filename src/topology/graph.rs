@@ -2,7 +2,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::RoomShapes;
-use super::shapes::changed_key;
+use super::shapes::changed_keys;
+use crate::base::lists::Lists;
 use crate::geometry::{Bounds, Point, Vector};
 use crate::plan::{CornerId, Joint, Opening, OpeningId, OpeningKind, Place, Plan, THICKEST_WALL_M};
 
@@ -28,19 +29,23 @@ impl Connection {
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     connections: Vec<Connection>,
+    /// For each connection the rooms on both sides, by their index in [`RoomShapes::all`].
+    ends: Vec<[Option<u32>; 2]>,
+    /// For each connection the middle of its opening, from where its sides are looked for; `None` where they are stated.
+    middles: Vec<Option<Point>>,
     /// For each room, by its index in [`RoomShapes::all`], the indices of its connections, without
     /// repeats.
-    of_room: Vec<Vec<usize>>,
+    of_room: Lists,
 }
 
 impl Graph {
     /// The graph of a plan's rooms.
     pub fn new(plan: &Plan, shapes: &RoomShapes) -> Self {
-        let mut graph = Self::without_connections(shapes);
+        let mut graph = Self::default();
         for (id, opening) in plan.openings() {
-            graph.add(id, opening.kind, shapes, || joined_by(plan, shapes, opening));
+            graph.look(plan, shapes, id, opening);
         }
-        graph
+        graph.finished(shapes)
     }
 
     /// The graph after an edit, from the one before it: the same as [`Graph::new`]. What an opening joins is looked for again
@@ -53,77 +58,98 @@ impl Graph {
         graph: &Arc<Self>,
     ) -> Arc<Self> {
         let is_shape = Arc::ptr_eq(shapes, shapes_before);
-        let changed: BTreeSet<CornerId> = if plan.corners.ptr_eq(&before.corners) {
-            BTreeSet::new()
-        } else {
-            plan.corners.diff(&before.corners).map(|item| changed_key(&item)).collect()
-        };
-        if is_shape && changed.is_empty() && plan.openings.ptr_eq(&before.openings) {
+        let moved: BTreeSet<CornerId> = changed_keys(&plan.corners, &before.corners);
+        let changed: BTreeSet<OpeningId> = changed_keys(&plan.openings, &before.openings);
+        if is_shape && moved.is_empty() && changed.is_empty() {
             return Arc::clone(graph);
         }
         // The boxes of rooms that changed, came or went.
         let mut around: Vec<Bounds> = Vec::new();
+        let mut is_same_rooms = true;
         if !is_shape {
-            let of = |shapes: &RoomShapes, others: &RoomShapes| -> Vec<Bounds> {
-                let changed = shapes.all().iter().filter(|shape| others.get(shape.id) != Some(shape));
-                changed.map(|shape| shape.bounds).filter(|bounds| !bounds.is_empty()).collect()
-            };
-            around.extend(of(shapes, shapes_before));
-            around.extend(of(shapes_before, shapes));
+            is_same_rooms = shapes.all().len() == shapes_before.all().len();
+            let mut was = shapes_before.all().iter().peekable();
+            for shape in shapes.all() {
+                // Both are sorted by id; what is passed over has gone.
+                while let Some(gone) = was.next_if(|was| was.id < shape.id) {
+                    around.push(gone.bounds);
+                }
+                match was.next_if(|was| was.id == shape.id) {
+                    Some(was) if was == shape => {}
+                    Some(was) => around.extend([was.bounds, shape.bounds]),
+                    None => {
+                        is_same_rooms = false;
+                        around.push(shape.bounds);
+                    }
+                }
+            }
+            around.extend(was.map(|gone| gone.bounds));
+            around.retain(|bounds| !bounds.is_empty());
         }
-        let is_near = |opening: &Opening| {
-            let looked = plan.opening_segment(opening).map(|segment| {
-                // As far as both rays reach.
-                Bounds::of([segment.midpoint()]).inflated(2.0 * THICKEST_WALL_M + 1e-6)
-            });
-            looked.is_none_or(|looked| around.iter().any(|bounds| bounds.intersects(looked)))
+        let is_near = |middle: Point| {
+            // As far as both rays reach.
+            let looked = Bounds::of([middle]).inflated(2.0 * THICKEST_WALL_M + 1e-6);
+            around.iter().any(|bounds| bounds.intersects(looked))
         };
-        let mut after = Self::without_connections(shapes);
-        let mut known = graph.connections.iter().peekable();
+        let mut after = Self::default();
+        after.connections.reserve(graph.connections.len() + 1);
+        after.ends.reserve(graph.connections.len() + 1);
+        after.middles.reserve(graph.connections.len() + 1);
+        let mut at = 0;
         for (&id, opening) in &plan.openings {
-            while known.next_if(|connection| connection.opening < id).is_some() {}
-            let sides = known.next_if(|connection| connection.opening == id).map(|connection| connection.sides);
-            let is_same = || {
-                let has_moved = |corner: &CornerId| changed.contains(corner);
-                let is_there = match &opening.place {
-                    Place::Hosted { from, to, .. } => !has_moved(from) && !has_moved(to),
-                    Place::Free { .. } => true,
-                };
-                is_there
-                    && before.openings.get(&id).is_some_and(|earlier| Arc::ptr_eq(earlier, opening))
-                    && (around.is_empty() || !is_near(opening))
+            while graph.connections.get(at).is_some_and(|connection| connection.opening < id) {
+                at += 1;
+            }
+            let has_moved = || match &opening.place {
+                Place::Hosted { from, to, .. } => moved.contains(from) || moved.contains(to),
+                Place::Free { .. } => false,
             };
-            match sides.filter(|_| opening.pinned.is_none() && is_same()) {
-                Some(sides) => after.add(id, opening.kind, shapes, || (sides, false)),
-                None => after.add(id, opening.kind, shapes, || joined_by(plan, shapes, opening)),
+            let known = graph.connections.get(at).filter(|connection| connection.opening == id);
+            let middle = graph.middles.get(at).copied().flatten();
+            let is_there = || {
+                let is_still = moved.is_empty() || !has_moved();
+                is_still && middle.is_some_and(|middle| around.is_empty() || !is_near(middle))
+            };
+            match known.filter(|_| !changed.contains(&id) && (opening.pinned.is_some() || is_there())) {
+                Some(connection) => {
+                    let ends = if is_same_rooms { graph.ends[at] } else { ends(shapes, connection.sides) };
+                    after.add(*connection, ends, middle);
+                }
+                None => after.look(plan, shapes, id, opening),
             }
         }
-        Arc::new(after)
-    }
-
-    fn without_connections(shapes: &RoomShapes) -> Self {
-        Self { connections: Vec::new(), of_room: vec![Vec::new(); shapes.all().len()] }
+        Arc::new(after.finished(shapes))
     }
 
     /// Adds what an opening joins, unless it is a window.
-    fn add(
-        &mut self,
-        id: OpeningId,
-        kind: OpeningKind,
-        shapes: &RoomShapes,
-        joined: impl FnOnce() -> ([Joint; 2], bool),
-    ) {
-        if !kind.is_passable() {
+    fn look(&mut self, plan: &Plan, shapes: &RoomShapes, id: OpeningId, opening: &Opening) {
+        if !opening.kind.is_passable() {
             return;
         }
-        let (sides, pinned) = joined();
-        let index = self.connections.len();
-        self.connections.push(Connection { opening: id, kind, sides, pinned });
-        let mut rooms: Vec<usize> = sides.iter().filter_map(|side| shapes.index_of(side.room()?)).collect();
-        rooms.dedup();
-        for room in rooms {
-            self.of_room[room].push(index);
-        }
+        let (sides, pinned) = joined_by(plan, shapes, opening);
+        let looked = opening.pinned.is_none().then(|| plan.opening_segment(opening)).flatten();
+        let middle = looked.map(|segment| segment.midpoint());
+        self.add(Connection { opening: id, kind: opening.kind, sides, pinned }, ends(shapes, sides), middle);
+    }
+
+    fn add(&mut self, connection: Connection, ends: [Option<u32>; 2], middle: Option<Point>) {
+        self.connections.push(connection);
+        self.ends.push(ends);
+        self.middles.push(middle);
+    }
+
+    fn finished(mut self, shapes: &RoomShapes) -> Self {
+        self.of_room = Lists::of_pairs(shapes.all().len(), |tell| {
+            for (index, [one, other]) in (0..).zip(&self.ends) {
+                if let Some(room) = *one {
+                    tell(room, index);
+                }
+                if let Some(room) = other.filter(|_| one != other) {
+                    tell(room, index);
+                }
+            }
+        });
+        self
     }
 
     /// All connections by opening.
@@ -134,13 +160,26 @@ impl Graph {
     /// The connections of a room given by its index in [`RoomShapes::all`]; one that joins the room to
     /// itself occurs once.
     pub fn of_room(&self, index: usize) -> impl ExactSizeIterator<Item = &Connection> + '_ {
-        self.of_room
-            .get(index)
-            .map(Vec::as_slice)
-            .unwrap_or_default()
-            .iter()
-            .map(|&connection| &self.connections[connection])
+        self.numbers(index).iter().map(|&connection| &self.connections[connection as usize])
     }
+
+    /// The same, each with the room on the other side by its index; `None` for the outside and the room itself.
+    pub fn doors_of(&self, index: usize) -> impl ExactSizeIterator<Item = (&Connection, Option<usize>)> + '_ {
+        self.numbers(index).iter().map(move |&connection| {
+            let [one, other] = self.ends[connection as usize].map(|room| room.map(|room| room as usize));
+            let side = if one == Some(index) { other } else { one };
+            (&self.connections[connection as usize], side.filter(|&side| side != index))
+        })
+    }
+
+    fn numbers(&self, index: usize) -> &[u32] {
+        if index < self.of_room.len() { self.of_room.of(index) } else { &[] }
+    }
+}
+
+/// The rooms on both sides, by their index.
+fn ends(shapes: &RoomShapes, sides: [Joint; 2]) -> [Option<u32>; 2] {
+    sides.map(|side| Some(shapes.index_of(side.room()?)? as u32))
 }
 
 /// What an opening joins, and whether that is stated.

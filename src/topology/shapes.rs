@@ -1,6 +1,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use imbl::OrdMap;
 use imbl::ordmap::DiffItem;
 use rstar::{AABB, RTree, RTreeObject};
 
@@ -83,7 +84,10 @@ pub struct RoomShapes {
     tree: RTree<Entry>,
 }
 
-#[derive(Debug)]
+/// With more shapes changed, the spatial index is made anew.
+const FEW_CHANGED: usize = 32;
+
+#[derive(Clone, Debug, PartialEq)]
 struct Entry {
     index: usize,
     bounds: Bounds,
@@ -104,14 +108,11 @@ impl RoomShapes {
 
     /// The shapes of the rooms of a plan after an edit, from those before it: the same as [`RoomShapes::new`].
     pub fn after(plan: &Plan, before: &Plan, shapes: &Arc<Self>) -> Arc<Self> {
-        let changed: BTreeSet<CornerId> = if plan.corners.ptr_eq(&before.corners) {
-            BTreeSet::new()
-        } else {
-            plan.corners.diff(&before.corners).map(|item| changed_key(&item)).collect()
-        };
+        let changed: BTreeSet<CornerId> = changed_keys(&plan.corners, &before.corners);
         if changed.is_empty() && plan.rooms.ptr_eq(&before.rooms) {
             return Arc::clone(shapes);
         }
+        let edited: BTreeSet<RoomId> = changed_keys(&plan.rooms, &before.rooms);
         let mut known = shapes.shapes.iter().peekable();
         let mut is_same = true;
         let all: Vec<RoomShape> = plan
@@ -120,15 +121,14 @@ impl RoomShapes {
             .map(|(&id, room)| {
                 // Both are sorted by id.
                 while known.next_if(|shape| shape.id < id).is_some() {}
-                let shape = known.next_if(|shape| shape.id == id).zip(before.rooms.get(&id)).filter(|(_, earlier)| {
-                    let is_ring =
-                        Arc::ptr_eq(earlier, room) || (earlier.outer == room.outer && earlier.holes == room.holes);
-                    is_ring
-                        && (changed.is_empty()
-                            || !room.rings().flat_map(|ring| ring.iter()).any(|it| changed.contains(it)))
-                });
-                match shape {
-                    Some((shape, _)) => shape.clone(),
+                let has_ring = || {
+                    !edited.contains(&id)
+                        || before.rooms.get(&id).is_some_and(|was| was.outer == room.outer && was.holes == room.holes)
+                };
+                let is_moved = |ring: &Arc<[CornerId]>| ring.iter().any(|corner| changed.contains(corner));
+                let has_moved = || !changed.is_empty() && (is_moved(&room.outer) || room.holes.iter().any(is_moved));
+                match known.next_if(|shape| shape.id == id).filter(|_| has_ring() && !has_moved()) {
+                    Some(shape) => shape.clone(),
                     None => {
                         is_same = false;
                         shape_of(plan, id, room)
@@ -136,7 +136,10 @@ impl RoomShapes {
                 }
             })
             .collect();
-        if is_same && all.len() == shapes.shapes.len() { Arc::clone(shapes) } else { Arc::new(Self::of_shapes(all)) }
+        match is_same && all.len() == shapes.shapes.len() {
+            true => Arc::clone(shapes),
+            false => Arc::new(shapes.changed_to(all)),
+        }
     }
 
     /// The shapes of some rooms, given by id.
@@ -153,6 +156,31 @@ impl RoomShapes {
             .map(|(index, shape)| Entry { index, bounds: shape.bounds })
             .collect();
         Self { shapes, tree: RTree::bulk_load(entries) }
+    }
+
+    /// Other shapes, whose spatial index is made from this one where few have changed.
+    fn changed_to(&self, shapes: Vec<RoomShape>) -> Self {
+        let pairs = || self.shapes.iter().zip(&shapes).enumerate();
+        if shapes.len() != self.shapes.len() || pairs().any(|(_, (before, now))| before.id != now.id) {
+            return Self::of_shapes(shapes);
+        }
+        let changed: Vec<(Entry, Entry)> = pairs()
+            .filter(|(_, (before, now))| before.bounds != now.bounds)
+            .map(|(index, (before, now))| (Entry { index, bounds: before.bounds }, Entry { index, bounds: now.bounds }))
+            .collect();
+        if changed.len() > FEW_CHANGED {
+            return Self::of_shapes(shapes);
+        }
+        let mut tree = self.tree.clone();
+        for (before, now) in changed {
+            if !before.bounds.is_empty() {
+                tree.remove(&before);
+            }
+            if !now.bounds.is_empty() {
+                tree.insert(now);
+            }
+        }
+        Self { shapes, tree }
     }
 
     /// All shapes, sorted by room id.
@@ -247,10 +275,14 @@ fn shape_of(plan: &Plan, id: RoomId, room: &Room) -> RoomShape {
     RoomShape { id, outer, holes, bounds }
 }
 
-/// The key of what differs between two maps.
-pub(super) fn changed_key<K: Copy, V>(item: &DiffItem<'_, '_, K, V>) -> K {
-    match item {
-        DiffItem::Add(key, _) | DiffItem::Remove(key, _) => **key,
-        DiffItem::Update { new: (key, _), .. } => **key,
+/// The keys of what differs between two maps.
+pub(super) fn changed_keys<K: Copy + Ord, V: PartialEq>(map: &OrdMap<K, V>, before: &OrdMap<K, V>) -> BTreeSet<K> {
+    if map.ptr_eq(before) {
+        return BTreeSet::new();
     }
+    let key = |item: DiffItem<'_, '_, K, V>| match item {
+        DiffItem::Add(key, _) | DiffItem::Remove(key, _) => *key,
+        DiffItem::Update { new: (key, _), .. } => *key,
+    };
+    map.diff(before).map(key).collect()
 }

@@ -266,7 +266,7 @@ fn rooms_of_square_kilometres_are_found_without_labels() {
     let found = findings(&draft.plan());
     let scale = found.iter().find(|finding| finding.kind().name == "scale_is_implausible").unwrap();
     assert!(
-        scale.what().contains("lengths seem 632.5 times too long: its median room has 12\u{202f}000\u{202f}000 m²"),
+        scale.what().contains("lengths seem 632.5 times too long: its median room has 12\u{a0}000\u{a0}000 m²"),
         "{scale}"
     );
     assert_eq!(scale.severity(), enfilade::check::Severity::Error);

@@ -72,7 +72,7 @@ fn a_rule_in_words() {
     );
     assert_eq!(
         said(SmallRoom, &[], 7, 7, 1460, 136),
-        "None of the 6 rules for other labels applies. Of the 1\u{202f}460 rooms left over that the model learned from, \
+        "None of the 6 rules for other labels applies. Of the 1\u{a0}460 rooms left over that the model learned from, \
          136 are small rooms."
     );
     assert_eq!(

@@ -106,7 +106,7 @@ fn rooms_may_be_closed_lines_or_lie_in_a_collection() {
 fn millimetres_are_doubted() {
     let import = other("millimetres-without-units.geojson");
     let [note] = &notes(&import)[..] else { panic!("{:?}", notes(&import)) };
-    assert!(note.contains("which is doubtful: its largest room would have 12\u{202f}000\u{202f}000 m²"), "{note}");
+    assert!(note.contains("which is doubtful: its largest room would have 12\u{a0}000\u{a0}000 m²"), "{note}");
     assert!(note.contains("an opening would be 900 m wide; the numbers look like millimetres"), "{note}");
     assert!(!note.contains("as the sizes suggest"));
     // Those who say metres are believed as long as there is such a room.

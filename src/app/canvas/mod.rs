@@ -8,6 +8,7 @@ pub(crate) mod guides;
 mod live;
 mod marks;
 pub(crate) mod rulers;
+mod storeys;
 
 use std::sync::Arc;
 
@@ -243,6 +244,9 @@ impl Canvas {
             paint_group(&painter, rect, &view, &group);
         }
         self.ghost.paint(&painter, rect, session.shown_ghost().map(|ghost| &ghost.derived), &style, &view);
+        if let Some(below) = session.shown_ghost() {
+            storeys::paint_links(&painter, rect, &view, document.plan(), below, palette);
+        }
         if let Some(seen) = session.robot_seen() {
             self.robot.paint(&painter, rect, &view, palette, session.units(), &seen, self.pointed.at);
         }
@@ -372,6 +376,7 @@ impl Canvas {
             options,
             layers: &session.layers,
             copied: session.copied.as_ref(),
+            below: session.ghost_plan(),
             units: session.units(),
             pointer,
             snap,

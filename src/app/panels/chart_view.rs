@@ -1,8 +1,9 @@
-//! A chart in a panel: pointing at a mark tells what it is; where it is wanted, dragging brushes dots.
+//! A chart in a panel: pointing at a mark tells what it is; where it is wanted, dragging brushes dots, or a box that the arrow keys
+//! move.
 
 use std::collections::BTreeSet;
 
-use egui::{Id, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
+use egui::{EventFilter, Id, Key, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, vec2};
 
 use crate::app::look::theme;
 use crate::app::look::widgets::{colours, focus_ring};
@@ -50,6 +51,7 @@ pub(super) fn show(
     let pointer = seen.response.hover_pos();
     if told.is_some() {
         brush(ui, rect, chart, &layout, &mut seen);
+        brush_by_keys(ui, rect, chart, &layout, &mut seen);
     }
     if let Some(pointer) = pointer {
         let at = Point::new(f64::from(pointer.x - rect.left()), f64::from(pointer.y - rect.top()));
@@ -123,20 +125,71 @@ fn brush(ui: &Ui, rect: Rect, chart: &Chart, layout: &Layout, seen: &mut Seen) {
     let (Some(start), Some(end)) = (start, seen.response.interact_pointer_pos()) else { return };
     let brushed = Rect::from_two_pos(start, end);
     if seen.response.dragged() {
-        let colours = colours(ui);
-        let painter = ui.painter().with_clip_rect(rect);
-        painter.rect_filled(brushed, 0.0, colours.accent.gamma_multiply(0.14));
-        painter.rect_stroke(brushed, 0.0, Stroke::new(1.0, colours.accent), StrokeKind::Inside);
+        paint_brush(ui, rect, brushed);
     }
     if seen.response.drag_stopped() {
-        ui.data_mut(|data| data.remove::<egui::Pos2>(id));
-        let mut keys = BTreeSet::new();
-        for series in &chart.series {
-            if let Marks::Dots(dots) = &series.marks {
-                let is_in = |dot: &&crate::chart::Dot| brushed.contains(place(rect, chart.place(layout, dot)));
-                keys.extend(dots.iter().filter(is_in).map(|dot| dot.key));
-            }
-        }
-        seen.brushed = Some(keys);
+        ui.data_mut(|data| data.remove::<Pos2>(id));
+        seen.brushed = Some(dots_in(rect, chart, layout, brushed));
     }
+}
+
+/// How far an arrow key moves or stretches the box of the keyboard, in points.
+const STEP: f32 = 8.0;
+
+/// The side of that box at first, in points.
+const SIDE: f32 = 48.0;
+
+/// The same without a pointer: while the chart has the keyboard, arrows move a box, Shift and arrows stretch it, Enter picks the
+/// dots in it.
+fn brush_by_keys(ui: &Ui, rect: Rect, chart: &Chart, layout: &Layout, seen: &mut Seen) {
+    if !seen.response.has_focus() || seen.response.dragged() {
+        return;
+    }
+    // Arrows would go to the next control otherwise.
+    let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(seen.response.id, arrows));
+    let id = Id::unique(("brush by keys", seen.response.id));
+    // Kept from the chart's corner: the chart may move.
+    let middle = Rect::from_center_size((rect.size() / 2.0).to_pos2(), Vec2::splat(SIDE));
+    let mut held = ui.data(|data| data.get_temp(id)).unwrap_or(middle);
+    let (moved, stretched, picks) = ui.input(|input| {
+        let along = |less: Key, more: Key| {
+            let pressed = |key| input.num_presses(key) as f32;
+            STEP * (pressed(more) - pressed(less))
+        };
+        let way = vec2(along(Key::ArrowLeft, Key::ArrowRight), along(Key::ArrowUp, Key::ArrowDown));
+        let (moved, stretched) = if input.modifiers.shift { (Vec2::ZERO, way) } else { (way, Vec2::ZERO) };
+        (moved, stretched, input.key_pressed(Key::Enter) || input.key_pressed(Key::Space))
+    });
+    held = held.translate(moved);
+    held.max = (held.max + stretched).max(held.min + Vec2::splat(STEP));
+    // Never wholly outside.
+    let within = Rect::from_min_size(Pos2::ZERO, rect.size());
+    let over = held.center() - within.clamp(held.center());
+    held = held.translate(-over);
+    ui.data_mut(|data| data.insert_temp(id, held));
+    let brushed = held.translate(rect.min.to_vec2());
+    paint_brush(ui, rect, brushed);
+    if picks {
+        seen.brushed = Some(dots_in(rect, chart, layout, brushed));
+    }
+}
+
+fn paint_brush(ui: &Ui, rect: Rect, brushed: Rect) {
+    let colours = colours(ui);
+    let painter = ui.painter().with_clip_rect(rect);
+    painter.rect_filled(brushed, 0.0, colours.accent.gamma_multiply(0.14));
+    painter.rect_stroke(brushed, 0.0, Stroke::new(1.0, colours.accent), StrokeKind::Inside);
+}
+
+/// The keys of the dots in a part of a chart.
+fn dots_in(rect: Rect, chart: &Chart, layout: &Layout, part: Rect) -> BTreeSet<usize> {
+    let mut keys = BTreeSet::new();
+    for series in &chart.series {
+        if let Marks::Dots(dots) = &series.marks {
+            let is_in = |dot: &&crate::chart::Dot| part.contains(place(rect, chart.place(layout, dot)));
+            keys.extend(dots.iter().filter(is_in).map(|dot| dot.key));
+        }
+    }
+    keys
 }

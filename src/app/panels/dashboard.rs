@@ -407,7 +407,8 @@ fn listed(
         ui.add_space(2.0);
         caption(
             ui,
-            "Drag over dots to pick their rooms. Those in the plan that is open are selected there. Or pick by label:",
+            "Drag over dots to pick their rooms. By keyboard: Tab to the chart, move a box with the arrows, stretch it with \
+             Shift and pick with Enter. Rooms of the open plan are selected there. Or pick by label:",
         );
         ui.add_space(2.0);
         for label in Label::ALL {

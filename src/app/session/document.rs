@@ -283,7 +283,7 @@ impl Document {
 
     /// Models or label schemes have changed: the plan is to be analysed anew.
     pub(crate) fn forget_derived(&mut self) {
-        (self.derived, self.awaited) = (None, None);
+        (self.derived, self.labelled, self.awaited) = (None, None, None);
     }
 
     /// The plan is out of sight: it is not analysed any more.
@@ -381,4 +381,28 @@ pub(crate) enum Expected {
 pub(crate) enum SaveFailure {
     ChangedOnDisk,
     Store(store::SaveError),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::classify::models::Models;
+
+    #[test]
+    fn labels_that_are_no_longer_true_are_not_current() {
+        let mut document = Document::new(0, open(Origin::Bundled(0)).unwrap());
+        let (schemes, models, by) = (Schemes::bundled(), Models::bundled(), LabelledBy::default());
+        let labels_of = |plan: &Plan| Arc::new(Labelled::new(plan, &schemes, Some((&by, &models)), None));
+        let before = document.plan().clone();
+        document.set_labelled(labels_of(&before));
+        assert!(document.labelled().is_some());
+        document.forget_derived();
+        assert!(document.labelled().is_none(), "models or label schemes have changed");
+        document.set_labelled(labels_of(&before));
+        let after = edit::set_meta(&before, Meta { name: "Another".to_owned(), ..before.meta().clone() });
+        document.history.push("Rename".to_owned(), after);
+        assert!(document.labelled().is_none(), "the plan has changed");
+        document.set_labelled(labels_of(&before));
+        assert!(document.labelled().is_none(), "they come too late");
+    }
 }

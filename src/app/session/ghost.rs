@@ -2,6 +2,7 @@
 
 use crate::app::session::Session;
 use crate::app::session::origin::file_name;
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -16,7 +17,7 @@ use crate::formats::{self, FileError, building_name};
 use crate::geometry::{Segment, polygon};
 use crate::labels::Schemes;
 use crate::plan::Plan;
-use crate::topology::vertical::vertical_links;
+use crate::topology::vertical::{VerticalLink, vertical_links};
 
 /// The plan shown below the open one.
 pub(crate) struct Ghost {
@@ -27,6 +28,8 @@ pub(crate) struct Ghost {
     pub origin: Option<Origin>,
     pub(crate) derived: Arc<Derived>,
     segments: Vec<Segment>,
+    /// The links last found, and the plan above that they lead to.
+    links: RefCell<Option<(Plan, Vec<VerticalLink>)>>,
 }
 
 impl Ghost {
@@ -39,7 +42,20 @@ impl Ghost {
         let segments = walls.chain(edges).chain(openings).collect();
         let name = plan.meta().name.clone();
         let title = origin.as_ref().filter(|_| name.is_empty()).map_or(name, Origin::title);
-        Self { plan, title, origin, derived, segments }
+        Self { plan, title, origin, derived, segments, links: RefCell::default() }
+    }
+
+    /// Its stairs and lifts that lead to those of the plan above: found anew only when that plan has changed.
+    pub(crate) fn links_to(&self, above: &Plan) -> Vec<VerticalLink> {
+        let mut known = self.links.borrow_mut();
+        match known.as_ref() {
+            Some((plan, links)) if plan.is_same_value(above) => links.clone(),
+            _ => {
+                let links = vertical_links(&self.plan, above);
+                *known = Some((above.clone(), links.clone()));
+                links
+            }
+        }
     }
 }
 
@@ -83,7 +99,7 @@ impl Session {
     pub(crate) fn ghost_was_read(&mut self, origin: &Origin, result: Result<Ghost, FileError>) {
         match result {
             Ok(ghost) => {
-                let links = self.plan().map_or(0, |plan| vertical_links(&ghost.plan, plan).len());
+                let links = self.plan().map_or(0, |plan| ghost.links_to(plan).len());
                 let joined = if links == 0 { String::new() } else { format!("; stairs and lifts joined: {links}") };
                 self.status = format!("Below: {}{joined}", ghost.title);
                 self.show_ghost(Some(ghost));

@@ -114,6 +114,8 @@ pub(crate) struct Scope<'a> {
     pub layers: &'a LayerSettings,
     /// The copied part of a plan.
     pub copied: Option<&'a Plan>,
+    /// The plan of the storey shown below.
+    pub below: Option<&'a Plan>,
     pub units: Units,
     /// The pointer's position in the plan, in metres; the last one if it has left the canvas.
     pub pointer: Point,

@@ -5,6 +5,7 @@
 
 mod array;
 mod calibrate;
+mod common_points;
 mod cut_out;
 mod dimension;
 mod fill;
@@ -34,6 +35,7 @@ pub(crate) use crate::app::paint::preview::{paint_snap, tag};
 pub(crate) use crate::app::value::{Call, Value};
 pub(crate) use array::{ARRAY, POLAR_ARRAY};
 pub(crate) use calibrate::{BY_DOOR as CALIBRATE_BY_DOOR, BY_LENGTH as CALIBRATE_BY_LENGTH};
+pub(crate) use common_points::ENTRY as COMMON_POINTS;
 pub(crate) use input::{Anchor, DrawOptions, Ground, Input, NUDGES_MORE, Scope};
 pub(crate) use number::ENTRY as NUMBER;
 pub(crate) use offset::OFFSET;
@@ -73,6 +75,7 @@ pub(crate) const TOOLS: &[Entry] = &[
     calibrate::BY_DOOR,
     straighten::ENTRY,
     rectify::ENTRY,
+    common_points::ENTRY,
 ];
 
 /// Positions and lengths of the backdrop: a hundredth of a millimetre in the plan is below any pixel.

@@ -75,22 +75,39 @@ impl<'a> Around<'a> {
         Self { view, first, believed, all, flats }
     }
 
-    fn sum(&self, rooms: &[usize]) -> Sums {
+    fn sum(&self, rooms: &[u32]) -> Sums {
         let mut sums = Sums::default();
         for &room in rooms {
-            sums.add(&self.believed[room], self.view.log_area[room], 1.0);
+            sums.add(&self.believed[room as usize], self.view.log_area[room as usize], 1.0);
         }
         sums
     }
 
-    /// The features of a room: a list as long as [`FEATURES`], all finite. They do not use its own known
+    /// The features of a room: as many as [`FEATURES`], all finite. They do not use its own known
     /// label.
-    pub fn of_room(&self, room: usize) -> Vec<f32> {
-        let area = self.view.log_area[room];
-        let joined = self.sum(&self.view.joined[room]);
-        let siblings = self.sum(&self.view.siblings[room]);
+    pub fn of_room(&self, room: usize) -> [f32; FEATURES.len()] {
+        let family = self.view.family(room).map(|family| self.sum(self.view.families.of(family)));
+        self.told(room, &self.sum(self.view.joined.of(room)), family)
+    }
+
+    /// The features of all rooms, in order.
+    pub fn of_rooms(&self) -> impl Iterator<Item = [f32; FEATURES.len()]> {
+        let families: Vec<Sums> = self.view.families.iter().map(|family| self.sum(family)).collect();
+        (0..self.believed.len()).map(move |room| {
+            let family = self.view.family(room).and_then(|family| families.get(family).copied());
+            self.told(room, &self.sum(self.view.joined.of(room)), family)
+        })
+    }
+
+    /// `family` are the sums over the room and its siblings, if it has a family.
+    fn told(&self, room: usize, joined: &Sums, family: Option<Sums>) -> [f32; FEATURES.len()] {
+        let (area, own) = (self.view.log_area[room], &self.believed[room]);
+        let siblings = family.map_or_else(Sums::default, |mut family| {
+            family.add(own, area, -1.0);
+            family
+        });
         let mut others = self.view.flat[room].map_or(self.all, |flat| self.flats[flat]);
-        others.add(&self.believed[room], area, -1.0);
+        others.add(own, area, -1.0);
         let against = |label: usize| {
             let weight = others.weights[label];
             if weight > LEAST_WEIGHT { area - others.areas[label] / weight } else { 0.0 }
@@ -104,7 +121,7 @@ impl<'a> Around<'a> {
             others.shares(),
             against,
         ];
-        numbers.iter().flatten().map(|&number| number as f32).collect()
+        std::array::from_fn(|feature| numbers[feature / 5][feature % 5] as f32)
     }
 }
 

@@ -118,10 +118,11 @@ impl Joint {
             })
             .collect();
         groups.sort_by(|p, q| p.if_typical.probability(label).total_cmp(&q.if_typical.probability(label)));
-        let mut neighbours: Vec<NeighbourEffect> = looked.view.joined[room]
-            .iter()
-            .filter(|&&other| other != room)
-            .map(|&other| {
+        let mut neighbours: Vec<NeighbourEffect> = looked
+            .view
+            .joined(room)
+            .filter(|&other| other != room)
+            .map(|other| {
                 let known_label = known.get(other).copied().flatten();
                 if let Some(label) = without.get_mut(other) {
                     *label = None;
@@ -166,7 +167,7 @@ impl Seen {
         let of_kind = |kind: OpeningKind| (kind, it.doors.iter().filter(|door| door.kind == kind).count());
         let of_label = |label: Label| (label, neighbours.iter().filter(|neighbour| neighbour.label == label).count());
         let betweenness = view::FEATURES.iter().position(|(_, name)| *name == "betweenness");
-        let joined: Vec<usize> = view.joined[room].iter().copied().filter(|&other| other != room).collect();
+        let joined: Vec<usize> = view.joined(room).filter(|&other| other != room).collect();
         Self {
             area_m2: it.area_m2,
             median_m2: (areas[(rooms - 1) / 2] + areas[rooms / 2]) / 2.0,
@@ -177,9 +178,9 @@ impl Seen {
             convexity: it.form.convexity,
             doors: OpeningKind::ALL.map(of_kind).into_iter().filter(|(_, count)| *count > 0).collect(),
             outside: it.doors.iter().filter(|door| door.to.is_none()).count(),
-            betweenness: betweenness.map_or(0.0, |feature| f64::from(round.looked.features[room][feature])),
+            betweenness: betweenness.map_or(0.0, |feature| f64::from(round.looked.rows.of(room)[feature])),
             joined_m2: joined.iter().map(|&other| network.rooms[other].area_m2).collect(),
-            most_joined: joined.iter().map(|&other| view.joined[other].len()).max().unwrap_or_default(),
+            most_joined: joined.iter().map(|&other| view.joined(other).len()).max().unwrap_or_default(),
             joined,
             is_flat: view.flat[room].is_some(),
             joined_labels: Label::ALL.map(of_label).into_iter().filter(|(_, count)| *count > 0).collect(),

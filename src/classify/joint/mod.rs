@@ -12,7 +12,9 @@ mod altered;
 mod around;
 mod asked;
 mod explain;
+mod places;
 mod room_by_room;
+mod rows;
 mod store;
 mod trees;
 mod view;
@@ -30,10 +32,13 @@ pub use view::Group;
 use self::altered::Version;
 use self::around::Around;
 use self::asked::Held;
+use self::places::Place;
+use self::rows::Rows;
 use self::trees::{Forest, Job, KEPT, Samples, VersionChoice};
-use self::view::{Search, View};
+use self::view::View;
 use super::calibration::fitted_temperature;
 use super::{Distribution, FoldScore, Scores};
+use crate::base::lists::Lists;
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
 use crate::dataset::folds::{Folds, FoldsError};
@@ -118,11 +123,11 @@ pub struct JointValidated {
 #[derive(Clone, Debug)]
 struct Looked {
     view: View,
-    features: Vec<Vec<f32>>,
+    rows: Rows,
     /// Whether no group of features was left out.
     is_whole: bool,
-    /// Which rooms of the whole plan are joined, and what searching them found.
-    searched: Arc<(Vec<Vec<usize>>, Vec<Search>)>,
+    /// Which rooms of the whole plan are joined, and where each lies among them.
+    placed: Arc<(Lists, Vec<Place>)>,
 }
 
 impl Looked {
@@ -132,47 +137,46 @@ impl Looked {
         Self::after(network, left_out, None)
     }
 
-    /// The same, after an edit: what was found by searching is found again where the same rooms are joined.
+    /// The same, after an edit: where rooms lie is found again where the same rooms are joined.
     fn after(network: &RoomNetwork, left_out: &BTreeSet<Group>, before: Option<&Self>) -> Self {
         let mut view = View::new(network);
-        let known = before.map(|before| &before.searched).filter(|searched| searched.0 == view.joined);
-        let searched = known.cloned().unwrap_or_else(|| {
-            let found = view::search(&view.joined);
-            Arc::new((view.joined.clone(), found))
-        });
-        let mut features = view::features(network, &view, &searched.1);
+        let known = before.map(|before| &before.placed).filter(|placed| placed.0 == view.joined);
+        let placed = known.cloned().unwrap_or_else(|| Arc::new((view.joined.clone(), places::places(&view.joined))));
+        let mut rows = view::features(network, &view, &placed.1);
         let flats = network.flats().map(|of| of.flats.as_slice()).unwrap_or_default();
-        for (index, flat) in flats.iter().enumerate() {
+        let mut alone: Vec<View> = Vec::with_capacity(flats.len());
+        for flat in flats {
             let part = network.part(flat);
             let of_part = View::new(&part);
-            let found = view::search(&of_part.joined);
-            for (&room, of_room) in flat.iter().zip(view::features(&part, &of_part, &found)) {
-                features[room] = of_room;
+            let of_rooms = view::features(&part, &of_part, &places::places(&of_part.joined));
+            for (&room, of_room) in flat.iter().zip(of_rooms.iter()) {
+                rows.of_mut(room).copy_from_slice(of_room);
             }
-            view.put(flat, index, &of_part);
+            alone.push(of_part);
         }
-        for room in &mut features {
-            blank(room, view::FEATURES, left_out);
+        if !flats.is_empty() {
+            view.put(flats, &alone);
         }
-        Self { view, features, is_whole: left_out.is_empty(), searched }
+        rows.iter_mut().for_each(|row| blank(row, view::FEATURES, left_out));
+        Self { view, rows, is_whole: left_out.is_empty(), placed }
     }
 
     /// The features of the second round.
-    fn with_labels(
-        &self,
-        first: &[Distribution],
-        known: &[Option<Label>],
-        left_out: &BTreeSet<Group>,
-    ) -> Vec<Vec<f32>> {
+    fn with_labels(&self, first: &[Distribution], known: &[Option<Label>], left_out: &BTreeSet<Group>) -> Rows {
         let around = Around::new(&self.view, first, known);
-        (0..self.features.len()).map(|room| self.with_labels_around(room, &around, left_out)).collect()
+        let mut rows = Rows::with_capacity(self.rows.width() + around::FEATURES.len(), self.rows.len());
+        for (row, mut told) in self.rows.iter().zip(around.of_rooms()) {
+            blank(&mut told, around::FEATURES, left_out);
+            rows.push(row.iter().copied().chain(told));
+        }
+        rows
     }
 
     /// The same for one room.
     fn with_labels_around(&self, room: usize, around: &Around<'_>, left_out: &BTreeSet<Group>) -> Vec<f32> {
         let mut told = around.of_room(room);
         blank(&mut told, around::FEATURES, left_out);
-        [self.features[room].as_slice(), &told].concat()
+        [self.rows.of(room), &told].concat()
     }
 }
 
@@ -195,6 +199,9 @@ struct HeldRooms {
 
 /// Sets the features of some groups to 0, so that no tree can split on them.
 fn blank(values: &mut [f32], features: &[(Group, &str)], groups: &BTreeSet<Group>) {
+    if groups.is_empty() {
+        return;
+    }
     for (value, (group, _)) in values.iter_mut().zip(features) {
         if groups.contains(group) {
             *value = 0.0;
@@ -295,14 +302,14 @@ impl Joint {
         // The first round: a forest for each fold that did not see it, and one trained on all rooms.
         let mut samples = Samples::default();
         for &at in &samples_of {
-            sample(&mut samples, at, &looked[at.0].features[at.1]);
+            sample(&mut samples, at, looked[at.0].rows.of(at.1));
         }
         let (of_folds, first) = grow(&samples, &folds_of, count, choice, seed_of_part(seed, 1), work)?;
 
         // Predictions for every room, by the forest not trained on it.
         let opinions = work.map(versions.len(), |index| {
             let version = &versions[index];
-            let rooms = looked[index].features.iter().zip(&version.rooms);
+            let rooms = looked[index].rows.iter().zip(&version.rooms);
             rooms
                 .map(|(values, &room)| of_folds.get(fold_of[version.of][room]).unwrap_or(&first).predict(values))
                 .collect::<Vec<_>>()
@@ -310,7 +317,7 @@ impl Joint {
 
         // The second round: every version with no rooms known, and with some known.
         let mut random = Random::new(seed_of_part(seed, 2));
-        let told: Vec<[Vec<Vec<f32>>; 2]> = versions
+        let told: Vec<[Rows; 2]> = versions
             .iter()
             .zip(&looked)
             .zip(&opinions)
@@ -327,7 +334,7 @@ impl Joint {
         // All places with nothing known, then all of them with some rooms known.
         let knowing_some = samples_of.iter().map(|&at| (at, 1));
         for (at, knowing) in samples_of.iter().map(|&at| (at, 0)).chain(knowing_some) {
-            sample(&mut samples, at, &told[at.0][knowing][at.1]);
+            sample(&mut samples, at, told[at.0][knowing].of(at.1));
         }
         let folds_of = folds_of.repeat(2);
         let (of_folds, second) = grow(&samples, &folds_of, count, choice, seed_of_part(seed, 3), work)?;
@@ -365,7 +372,7 @@ impl Joint {
     }
 
     fn first_round_from(&self, looked: Arc<Looked>) -> FirstRound {
-        let opinions = looked.features.iter().map(|values| self.first.predict(values)).collect();
+        let opinions = self.first.predict_all(&looked.rows);
         FirstRound { looked, opinions, held: HeldRooms::default() }
     }
 
@@ -388,15 +395,15 @@ impl Joint {
         };
         let rooms: Vec<RoomId> = network.rooms.iter().map(|room| room.id).collect();
         let places = before.map_or_else(Vec::new, |before| places_among(&before.held.rooms, &rooms));
-        let held_before = |of: fn(&HeldRooms) -> &Vec<Arc<Held>>| -> Vec<Option<&Arc<Held>>> {
-            let Some(before) = before else { return Vec::new() };
-            places.iter().map(|place| of(&before.held).get((*place)?)).collect()
-        };
-        let first = self.first.asked().predict_held(&looked.features, &held_before(|held| &held.first), |said| said);
+        let place = |room: usize| places.get(room).copied().flatten();
+        let held = before.map(|before| &before.held);
+        let first_before = |room: usize| held?.first.get(place(room)?);
+        let first = self.first.asked().predict_held(&looked.rows, first_before, |said| said);
         let opinions: Vec<Distribution> = first.iter().map(|held| held.said).collect();
-        let features = looked.with_labels(&opinions, known, &self.left_out);
+        let rows = looked.with_labels(&opinions, known, &self.left_out);
         let finish = |said: Distribution| said.at_temperature(self.temperature);
-        let second = self.second.asked().predict_held(&features, &held_before(|held| &held.second), finish);
+        let second_before = |room: usize| held?.second.get(place(room)?);
+        let second = self.second.asked().predict_held(&rows, second_before, finish);
         let distributions = second.iter().map(|held| held.said).collect();
         (FirstRound { looked, opinions, held: HeldRooms { rooms, first, second } }, distributions)
     }
@@ -407,8 +414,8 @@ impl Joint {
     }
 
     fn second_opinions(&self, looked: &Looked, first: &[Distribution], known: &[Option<Label>]) -> Vec<Distribution> {
-        let features = looked.with_labels(first, known, &self.left_out);
-        features.iter().map(|values| self.answer(values)).collect()
+        let said = self.second.predict_all(&looked.with_labels(first, known, &self.left_out));
+        said.into_iter().map(|said| said.at_temperature(self.temperature)).collect()
     }
 
     /// The second forest's prediction for a room.

@@ -4,6 +4,7 @@
 
 use std::collections::BTreeSet;
 
+use super::rows::Rows;
 use super::trees::{self, Job, Samples, VersionChoice};
 use super::{Classes, Looked, label, labelled};
 use crate::base::random::seed_of_part;
@@ -29,12 +30,12 @@ pub fn by_other_rooms(
 ) -> Result<Vec<Distribution>, Cancelled> {
     let places = labelled(networks);
     let classes = Classes::new(networks, &places);
-    let mut features: Vec<Vec<Vec<f32>>> = Vec::with_capacity(networks.len());
+    let mut features: Vec<Rows> = Vec::with_capacity(networks.len());
     for network in networks {
         work.goes_on()?;
-        features.push(Looked::new(network, &BTreeSet::new()).features);
+        features.push(Looked::new(network, &BTreeSet::new()).rows);
     }
-    let values = |at: usize| &features[places[at].network][places[at].room];
+    let values = |at: usize| features[places[at].network].of(places[at].room);
     let mut samples = Samples::default();
     for (at, &place) in places.iter().enumerate() {
         samples.push(values(at), label(networks, place), classes.of(networks, place));

@@ -5,6 +5,7 @@ use std::fmt;
 
 use serde_json::{Value, json};
 
+use super::asked;
 use super::trees::{Forest, Node, Tree};
 use super::{Group, Joint, around, view};
 
@@ -124,7 +125,7 @@ fn forest(name: &str, trees: &[Value], features: usize) -> Result<Forest, JointM
         let Some(numbers) = numbers.as_array() else { return refuse(at(), "is no list of numbers") };
         let tree = tree(numbers, features).or_else(|what| refuse(at(), what))?;
         nodes += tree.nodes.len();
-        if nodes > MOST_NODES {
+        if nodes > MOST_NODES || tree.nodes.len() > asked::MOST_NODES {
             return refuse(name, "is larger than can be meant");
         }
         read.push(tree);

@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 pub(super) use super::asked::{Node, Tree};
 
 use super::asked::Asked;
+use super::rows::Rows;
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
 use crate::classify::Distribution;
@@ -159,6 +160,11 @@ impl Forest {
     /// The mean of the trees' answers.
     pub fn predict(&self, values: &[f32]) -> Distribution {
         self.asked().predict(values)
+    }
+
+    /// The same for each row.
+    pub fn predict_all(&self, rows: &Rows) -> Vec<Distribution> {
+        self.asked().predict_all(rows)
     }
 }
 

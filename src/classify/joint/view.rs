@@ -1,8 +1,9 @@
 //! What the joint classifier sees of each room before any label is known: the room in relation to the
 //! other rooms of its plan. Nothing here comes from a room's name or function.
 
-use std::collections::VecDeque;
-
+use super::places::Place;
+use super::rows::Rows;
+use crate::base::lists::Lists;
 use crate::base::numbers::{mean, quantile};
 use crate::dataset::RoomNetwork;
 use crate::plan::OpeningKind;
@@ -113,50 +114,75 @@ const LARGE: f64 = 0.5;
 /// Replaces infinitely small and large values: logarithms stay within 20.
 const LEAST: f64 = 1e-9;
 
-/// Up to this many rooms, the graph is searched from every room; beyond, from this many evenly spaced
-/// ones: time stays proportional to the plan.
-const MOST_SEARCHES: usize = 1000;
-
 /// Per-room lists of a plan from which features and labels around rooms are computed.
 #[derive(Clone, Debug)]
 pub(super) struct View {
     /// Natural logarithm of the area in m².
     pub log_area: Vec<f64>,
     /// The rooms its openings lead to, without repeats, ascending.
-    pub joined: Vec<Vec<usize>>,
-    /// The other rooms joined by its best connected neighbour.
-    pub siblings: Vec<Vec<usize>>,
+    pub joined: Lists,
+    /// The rooms that a room joins, for each room that may be another's best connected neighbour.
+    pub families: Lists,
+    /// For each room the family of its best connected neighbour; `None` for one without neighbours.
+    family_of: Vec<Option<u32>>,
     /// The flat that each room is in, from 0; `None` outside flats, in any plan that is no storey of flats.
     pub flat: Vec<Option<usize>>,
 }
 
 impl View {
     pub fn new(network: &RoomNetwork) -> Self {
-        let log_area: Vec<f64> = network.rooms.iter().map(|room| log(room.area_m2)).collect();
-        let joined: Vec<Vec<usize>> = network.joined();
-        let siblings = (0..joined.len())
-            .map(|room| {
-                // Equally connected neighbours of equal area lead to as many siblings: which is taken
-                // matters little, and the rooms' order decides.
-                let hub = joined[room]
-                    .iter()
-                    .copied()
-                    .max_by(|&p, &q| joined[p].len().cmp(&joined[q].len()).then(log_area[p].total_cmp(&log_area[q])));
-                hub.map_or_else(Vec::new, |hub| joined[hub].iter().copied().filter(|&other| other != room).collect())
-            })
-            .collect();
-        let flat = vec![None; joined.len()];
-        Self { log_area, joined, siblings, flat }
+        let rooms = &network.rooms;
+        let log_area: Vec<f64> = rooms.iter().map(|room| log(room.area_m2)).collect();
+        let doors = rooms.iter().map(|room| room.doors.len()).sum();
+        let mut joined = Lists::with_capacity(rooms.len(), doors);
+        for room in rooms {
+            joined.push_distinct(room.doors.iter().filter_map(|door| Some(door.to? as u32)));
+        }
+        let degree = |room: u32| joined.of(room as usize).len();
+        let hub = |of_room: &[u32]| {
+            // Equally connected neighbours of equal area lead to as many siblings: which is taken
+            // matters little, and the rooms' order decides.
+            let by_area = |p: u32, q: u32| log_area[p as usize].total_cmp(&log_area[q as usize]);
+            of_room.iter().copied().max_by(|&p, &q| degree(p).cmp(&degree(q)).then_with(|| by_area(p, q)))
+        };
+        let family_of = joined.iter().map(hub).collect();
+        let flat = vec![None; rooms.len()];
+        Self { log_area, families: joined.clone(), joined, family_of, flat }
     }
 
-    /// Replaces what it holds of the rooms of a flat by what the flat alone shows.
-    pub fn put(&mut self, flat: &[usize], index: usize, alone: &Self) {
-        let named = |rooms: &[usize]| rooms.iter().map(|&room| flat[room]).collect();
-        for (place, &room) in flat.iter().enumerate() {
-            self.joined[room] = named(&alone.joined[place]);
-            self.siblings[room] = named(&alone.siblings[place]);
-            self.flat[room] = Some(index);
+    /// Replaces what it holds of the rooms of flats by what each flat alone shows.
+    pub fn put(&mut self, flats: &[Vec<usize>], alone: &[Self]) {
+        let mut place_of: Vec<Option<(usize, usize)>> = vec![None; self.flat.len()];
+        for ((index, flat), alone) in flats.iter().enumerate().zip(alone) {
+            let families = self.families.len() as u32;
+            let named = |rooms: &[u32]| rooms.iter().map(|&room| flat[room as usize] as u32).collect::<Vec<_>>();
+            for (place, &room) in flat.iter().enumerate() {
+                place_of[room] = Some((index, place));
+                self.families.push(named(alone.families.of(place)));
+                self.family_of[room] = alone.family_of[place].map(|family| families + family);
+                self.flat[room] = Some(index);
+            }
         }
+        let mut joined = Lists::default();
+        for (room, place) in place_of.into_iter().enumerate() {
+            match place {
+                None => joined.push(self.joined.of(room).iter().copied()),
+                Some((index, place)) => {
+                    joined.push(alone[index].joined.of(place).iter().map(|&other| flats[index][other as usize] as u32));
+                }
+            }
+        }
+        self.joined = joined;
+    }
+
+    /// The rooms that a room joins.
+    pub fn joined(&self, room: usize) -> impl ExactSizeIterator<Item = usize> + Clone + '_ {
+        self.joined.of(room).iter().map(|&other| other as usize)
+    }
+
+    /// The family that a room is one of: by its index in [`View::families`].
+    pub fn family(&self, room: usize) -> Option<usize> {
+        self.family_of[room].map(|family| family as usize)
     }
 
     /// The rooms that a room is compared with, itself included: those of its flat, or of the whole plan.
@@ -178,206 +204,163 @@ fn count(items: impl Iterator<Item = bool>) -> f64 {
     items.filter(|&is| is).count() as f64
 }
 
-fn sorted(numbers: &[f64]) -> Vec<f64> {
-    let mut sorted = numbers.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted
+/// Numbers in order, and where each one stands.
+struct Order {
+    sorted: Vec<f64>,
+    /// The places of the numbers, in the order of the numbers.
+    places: Vec<u32>,
 }
 
-/// How many of the sorted numbers are at most this, within [`EQUAL`].
-fn within(sorted: &[f64], low: f64, high: f64) -> usize {
-    sorted.partition_point(|&number| number <= high).saturating_sub(sorted.partition_point(|&number| number < low))
+impl Order {
+    fn new(numbers: &[f64]) -> Self {
+        let mut pairs: Vec<(f64, u32)> = numbers.iter().copied().zip(0..).collect();
+        pairs.sort_unstable_by(|p, q| p.0.total_cmp(&q.0));
+        Self { sorted: pairs.iter().map(|pair| pair.0).collect(), places: pairs.iter().map(|pair| pair.1).collect() }
+    }
+
+    /// Goes through the numbers in order. `tell` is told of each its place, how many numbers are below it by more than
+    /// `within`, and how many are above it by at most that, those below included.
+    fn windows(&self, within: f64, mut tell: impl FnMut(usize, usize, usize)) {
+        let (mut below, mut up_to) = (0, 0);
+        for (&number, &place) in self.sorted.iter().zip(&self.places) {
+            while self.sorted.get(below).is_some_and(|&other| other < number - within) {
+                below += 1;
+            }
+            while self.sorted.get(up_to).is_some_and(|&other| other <= number + within) {
+                up_to += 1;
+            }
+            tell(place as usize, below, up_to);
+        }
+    }
+
+    /// For each number the share of the others that are smaller; those within [`EQUAL`] count half.
+    fn ranks(&self) -> Vec<f64> {
+        let others = (self.sorted.len().max(2) - 1) as f64;
+        let mut ranks = vec![0.0; self.sorted.len()];
+        self.windows(EQUAL, |place, below, up_to| {
+            let equal = up_to.saturating_sub(below) as f64 - 1.0;
+            ranks[place] = (below as f64 + equal / 2.0) / others;
+        });
+        ranks
+    }
+
+    /// For each number how many others are [`ALIKE`].
+    fn alike(&self) -> Vec<f64> {
+        let mut alike = vec![0.0; self.sorted.len()];
+        self.windows(ALIKE, |place, below, up_to| alike[place] = up_to.saturating_sub(below) as f64 - 1.0);
+        alike
+    }
 }
 
-/// For each number the share of the others that are smaller; ties count half.
 fn ranks(numbers: &[f64]) -> Vec<f64> {
-    let sorted = sorted(numbers);
-    let others = (numbers.len().max(2) - 1) as f64;
-    numbers
-        .iter()
-        .map(|&number| {
-            let smaller = sorted.partition_point(|&other| other < number - EQUAL) as f64;
-            let equal = within(&sorted, number - EQUAL, number + EQUAL) as f64 - 1.0;
-            (smaller + equal / 2.0) / others
-        })
-        .collect()
+    Order::new(numbers).ranks()
 }
 
-/// Results of searching the graph, for each room.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Search {
-    /// Share of the shortest paths between other rooms that pass through it (Freeman 1977).
-    betweenness: f64,
-    /// One over the mean number of steps to the reachable rooms.
-    closeness: f64,
-    farthest: f64,
-    /// Share of all rooms that are reachable, itself included.
-    reach: f64,
-}
+/// The areas of a family's rooms, for what each of them shows of the others.
+struct Family<'a>(&'a [f64]);
 
-/// Which rooms are joined, one list after the other: quicker to go through than a list for each room.
-struct Joined {
-    /// Where each room's list begins, and where the last ends.
-    starts: Vec<u32>,
-    rooms: Vec<u32>,
-}
-
-impl Joined {
-    fn new(joined: &[Vec<usize>]) -> Self {
-        let mut starts = Vec::with_capacity(joined.len() + 1);
-        starts.push(0);
-        let mut rooms = Vec::new();
-        for of_room in joined {
-            rooms.extend(of_room.iter().map(|&other| other as u32));
-            starts.push(rooms.len() as u32);
-        }
-        Self { starts, rooms }
+impl Family<'_> {
+    /// Of all but one of this area: the median, and how many are [`ALIKE`] to it.
+    fn without(&self, area: f64) -> (f64, f64) {
+        let at = self.0.partition_point(|&other| other < area);
+        let others = self.0.len().saturating_sub(1);
+        let of = |place: usize| self.0[if place < at { place } else { place + 1 }];
+        let middle = 0.5 * others.saturating_sub(1) as f64;
+        let below = middle.floor() as usize;
+        let median = match others {
+            0 => 0.0,
+            _ => of(below) + (middle - below as f64) * (of((below + 1).min(others - 1)) - of(below)),
+        };
+        let low = self.0.partition_point(|&other| other - area < -ALIKE);
+        let high = self.0.partition_point(|&other| other - area <= ALIKE);
+        (median, high.saturating_sub(low) as f64 - 1.0)
     }
-
-    fn of(&self, room: u32) -> &[u32] {
-        let room = room as usize;
-        &self.rooms[self.starts[room] as usize..self.starts[room + 1] as usize]
-    }
-}
-
-/// Not reached in a search.
-const NOWHERE: u32 = u32::MAX;
-
-/// Searches the graph breadth-first from every room; betweenness after Brandes (2001).
-pub(super) fn search(joined: &[Vec<usize>]) -> Vec<Search> {
-    let rooms = joined.len();
-    let mut found = vec![Search::default(); rooms];
-    let stride = rooms.div_ceil(MOST_SEARCHES).max(1);
-    let joined = Joined::new(joined);
-    // Only what a search has reached is reset after it.
-    let mut steps: Vec<u32> = vec![NOWHERE; rooms];
-    let mut ways = vec![0.0; rooms];
-    let mut from_here = vec![0.0; rooms];
-    let mut order: Vec<u32> = Vec::with_capacity(rooms);
-    for start in (0..rooms).step_by(stride) {
-        order.clear();
-        order.push(start as u32);
-        (steps[start], ways[start]) = (0, 1.0);
-        let mut at = 0;
-        while let Some(&room) = order.get(at) {
-            at += 1;
-            let (next, ways_here) = (steps[room as usize] + 1, ways[room as usize]);
-            for &other in joined.of(room) {
-                let other_at = other as usize;
-                if steps[other_at] == NOWHERE {
-                    steps[other_at] = next;
-                    order.push(other);
-                }
-                if steps[other_at] == next {
-                    ways[other_at] += ways_here;
-                }
-            }
-        }
-        let reached = order.len() as f64;
-        let sum: f64 = order.iter().map(|&room| f64::from(steps[room as usize])).sum();
-        let farthest = order.last().map_or(0, |&room| steps[room as usize]);
-        found[start].closeness = if sum > 0.0 { (reached - 1.0) / sum } else { 0.0 };
-        found[start].farthest = f64::from(farthest);
-        found[start].reach = reached / rooms as f64;
-        let pairs = ((reached - 1.0) * (reached - 2.0)).max(1.0) / stride as f64;
-        for &room in order.iter().rev() {
-            let at = room as usize;
-            if at == start {
-                continue;
-            }
-            let before = steps[at] - 1;
-            for &other in joined.of(room) {
-                let other = other as usize;
-                if steps[other] == before {
-                    from_here[other] += ways[other] / ways[at] * (1.0 + from_here[at]);
-                }
-            }
-            found[at].betweenness += from_here[at] / pairs;
-        }
-        for &room in &order {
-            (steps[room as usize], ways[room as usize], from_here[room as usize]) = (NOWHERE, 0.0, 0.0);
-        }
-    }
-    if stride > 1 {
-        // Rooms that were not searched from take the result of the last one before them.
-        for room in 0..rooms {
-            let Search { closeness, farthest, reach, .. } = found[room / stride * stride];
-            found[room] = Search { closeness, farthest, reach, ..found[room] };
-        }
-    }
-    found
 }
 
 /// For each room the steps to the nearest target; one more than the longest possible path if there is
 /// none.
-fn steps_to(joined: &[Vec<usize>], targets: impl Iterator<Item = usize>) -> Vec<f64> {
-    let mut steps = vec![None; joined.len()];
-    let mut queue: VecDeque<usize> = targets.collect();
+fn steps_to(joined: &Lists, targets: impl Iterator<Item = usize>) -> Vec<f64> {
+    let mut steps = vec![u32::MAX; joined.len()];
+    let mut queue: Vec<u32> = targets.map(|target| target as u32).collect();
     for &target in &queue {
-        steps[target] = Some(0);
+        steps[target as usize] = 0;
     }
-    while let Some(room) = queue.pop_front() {
-        let next = steps[room].map(|steps: u32| steps + 1);
-        for &other in &joined[room] {
-            if steps[other].is_none() {
-                steps[other] = next;
-                queue.push_back(other);
+    let mut at = 0;
+    while let Some(&room) = queue.get(at) {
+        at += 1;
+        let next = steps[room as usize] + 1;
+        for &other in joined.of(room as usize) {
+            if steps[other as usize] == u32::MAX {
+                steps[other as usize] = next;
+                queue.push(other);
             }
         }
     }
-    steps.into_iter().map(|steps| steps.map_or(joined.len() as f64, f64::from)).collect()
+    let nowhere = joined.len() as f64;
+    steps.into_iter().map(|steps| if steps == u32::MAX { nowhere } else { f64::from(steps) }).collect()
 }
 
 /// For each room the number of others that are [`ALIKE`] in both numbers. Takes time proportional to n log n: rooms
-/// sorted by the first number enter and leave a window, within which those near in the second are counted.
-fn alike_in_both(first: &[f64], second: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..first.len()).collect();
-    order.sort_by(|&p, &q| first[p].total_cmp(&first[q]));
-    let seconds = sorted(second);
-    let place_of = |number: f64| seconds.partition_point(|&other| other < number);
+/// in the order of the first number enter and leave a window, within which those near in the second are counted.
+fn alike_in_both(first: &Order, second: &Order) -> Vec<f64> {
+    let count = first.sorted.len();
+    // For each room where its second number stands, and where those alike begin and end.
+    let mut place_of = vec![0_u32; count];
+    let mut window = vec![(0_u32, 0_u32); count];
+    let (mut low, mut high) = (0, 0);
+    for (place, (&number, &room)) in second.sorted.iter().zip(&second.places).enumerate() {
+        while second.sorted.get(low).is_some_and(|&other| other - number < -ALIKE) {
+            low += 1;
+        }
+        while second.sorted.get(high).is_some_and(|&other| other - number <= ALIKE) {
+            high += 1;
+        }
+        place_of[room as usize] = place as u32;
+        window[room as usize] = (low as u32, high as u32);
+    }
     // A binary indexed tree of how many in the window have each place (Fenwick 1994).
-    let mut tree = vec![0_i64; second.len() + 1];
-    let add = |tree: &mut Vec<i64>, place: usize, by: i64| {
-        let mut at = place + 1;
-        while at < tree.len() {
-            tree[at] += by;
+    let mut tree = vec![0_i32; count + 1];
+    let add = |tree: &mut [i32], place: u32, by: i32| {
+        let mut at = place as usize + 1;
+        while let Some(slot) = tree.get_mut(at) {
+            *slot += by;
             at += at & at.wrapping_neg();
         }
     };
-    let before = |tree: &[i64], place: usize| {
-        let (mut at, mut sum) = (place, 0);
+    let before = |tree: &[i32], place: u32| {
+        let (mut at, mut sum) = (place as usize, 0);
         while at > 0 {
             sum += tree[at];
             at -= at & at.wrapping_neg();
         }
         sum
     };
-    let mut alike = vec![0.0; first.len()];
+    let mut alike = vec![0.0; count];
     let (mut enters, mut leaves) = (0, 0);
-    for &room in &order {
-        while enters < order.len() && first[order[enters]] <= first[room] + ALIKE {
-            add(&mut tree, place_of(second[order[enters]]), 1);
+    for (&number, &room) in first.sorted.iter().zip(&first.places) {
+        while enters < count && first.sorted[enters] <= number + ALIKE {
+            add(&mut tree, place_of[first.places[enters] as usize], 1);
             enters += 1;
         }
-        while first[order[leaves]] < first[room] - ALIKE {
-            add(&mut tree, place_of(second[order[leaves]]), -1);
+        while first.sorted[leaves] < number - ALIKE {
+            add(&mut tree, place_of[first.places[leaves] as usize], -1);
             leaves += 1;
         }
-        let low = seconds.partition_point(|&other| other - second[room] < -ALIKE);
-        let high = seconds.partition_point(|&other| other - second[room] <= ALIKE);
-        alike[room] = (before(&tree, high) - before(&tree, low)) as f64 - 1.0;
+        let (low, high) = window[room as usize];
+        alike[room as usize] = f64::from(before(&tree, high) - before(&tree, low)) - 1.0;
     }
     alike
 }
 
-/// The features of every room of a network, each list as long as [`FEATURES`]; all finite.
-/// `places` are what [`search`] finds of the rooms that the view joins.
-pub(super) fn features(network: &RoomNetwork, view: &View, places: &[Search]) -> Vec<Vec<f32>> {
-    let View { log_area, joined, siblings, .. } = view;
+/// The features of every room of a network, each row as long as [`FEATURES`]; all finite.
+/// `places` are those of the rooms that the view joins.
+pub(super) fn features(network: &RoomNetwork, view: &View, places: &[Place]) -> Rows {
+    let View { log_area, joined, families, .. } = view;
     let rooms = &network.rooms;
     let all = rooms.len() as f64;
-    let areas = sorted(log_area);
-    let median = quantile(&areas, 0.5);
+    let by_area = Order::new(log_area);
+    let areas = &by_area.sorted;
+    let median = quantile(areas, 0.5);
     let largest = areas.last().copied().unwrap_or_default();
     let total = log(rooms.iter().map(|room| room.area_m2).sum());
     // The side of a square of the median area.
@@ -390,15 +373,14 @@ pub(super) fn features(network: &RoomNetwork, view: &View, places: &[Search]) ->
     let passages: Vec<f64> =
         rooms.iter().map(|room| count(room.doors.iter().map(|door| door.kind == OpeningKind::Passage))).collect();
     let most_joined = most(degree.iter().copied());
-    let (area_rank, door_rank) = (ranks(log_area), ranks(&doors));
+    let (area_rank, door_rank) = (by_area.ranks(), ranks(&doors));
     let (length_rank, width_rank) = (ranks(&log_length), ranks(&log_width));
     let closeness: Vec<f64> = places.iter().map(|place| place.closeness).collect();
     let closeness_rank = ranks(&closeness);
     let mean_closeness = mean(closeness.iter().copied()).unwrap_or_default();
     let hubs = (0..rooms.len()).filter(|&room| degree[room] == most_joined);
     let to_hub = steps_to(joined, hubs);
-    let of_area: Vec<f64> =
-        log_area.iter().map(|&area| within(&areas, area - ALIKE, area + ALIKE) as f64 - 1.0).collect();
+    let of_area = by_area.alike();
     // The mean of equally common areas, so that the rooms' order does not matter.
     let most_common = most(of_area.iter().copied());
     let common = (0..rooms.len()).filter(|&room| of_area[room] == most_common).map(|room| log_area[room]);
@@ -409,8 +391,8 @@ pub(super) fn features(network: &RoomNetwork, view: &View, places: &[Search]) ->
         all,
         median,
         spread,
-        quantile(&areas, 0.1) - median,
-        quantile(&areas, 0.9) - median,
+        quantile(areas, 0.1) - median,
+        quantile(areas, 0.9) - median,
         largest - median,
         mean(doors.iter().copied()).unwrap_or_default(),
         count(degree.iter().map(|&degree| degree <= 1.0)) / all.max(1.0),
@@ -418,79 +400,90 @@ pub(super) fn features(network: &RoomNetwork, view: &View, places: &[Search]) ->
         count(rooms.iter().map(|room| log(room.axes_ratio) > 1.0)) / all.max(1.0),
         mean(passages.iter().copied()).unwrap_or_default(),
     ];
-    let of_area_and_shape = alike_in_both(log_area, &aspect);
+    let of_area_and_shape = alike_in_both(&by_area, &Order::new(&aspect));
     let others = (all - 1.0).max(1.0);
-    (0..rooms.len())
-        .map(|index| {
-            let (room, area) = (&rooms[index], log_area[index]);
-            let neighbours = || joined[index].iter().copied();
-            let ends = count(neighbours().map(|other| degree[other] <= 1.0));
-            let related = |pick: fn(f64, f64) -> f64| neighbours().map(|other| log_area[other]).reduce(pick);
-            let (largest_neighbour, smallest_neighbour) = (related(f64::max), related(f64::min));
-            let beside = |area_beside: Option<f64>| area_beside.map_or(0.0, |beside| beside - area);
-            let siblings = &siblings[index];
-            let sibling_areas: Vec<f64> = siblings.iter().map(|&other| log_area[other]).collect();
-            let same = of_area_and_shape[index];
-            let own = [
-                area - median,
-                area - largest,
-                area - total,
-                area_rank[index],
-                area,
-                // Size above, form below.
-                log(room.axes_ratio),
-                aspect[index],
-                log(room.form.perimeter_m) - area / 2.0,
-                room.form.convexity,
-                room.form.fill(room.area_m2),
-                f64::from(room.form.walls),
-                log_length[index] - side,
-                log_width[index] - side,
-                length_rank[index],
-                width_rank[index],
-                // Openings.
-                doors[index],
-                degree[index],
-                degree[index] / most_joined.max(1.0),
-                door_rank[index],
-                doors[index] / room.form.perimeter_m.max(LEAST) * side.exp(),
-                passages[index],
-                count(room.doors.iter().map(|door| door.kind == OpeningKind::DoubleDoor)),
-                count(room.doors.iter().map(|door| door.to.is_none())),
-                count(room.doors.iter().map(|door| door.to.is_some())) - degree[index],
-                // Place.
-                places[index].betweenness,
-                closeness[index] - mean_closeness,
-                closeness_rank[index],
-                places[index].farthest,
-                to_hub[index],
-                places[index].reach,
-                // Neighbours.
-                ends,
-                ends / degree[index].max(1.0),
-                beside(mean(neighbours().map(|other| log_area[other]))),
-                beside(largest_neighbour),
-                beside(smallest_neighbour),
-                largest_neighbour.map_or(0.0, |beside| beside - median),
-                most(neighbours().map(|other| degree[other])),
-                mean(neighbours().map(|other| degree[other])).unwrap_or_default(),
-                most(neighbours().map(|other| log(rooms[other].axes_ratio))),
-                most(neighbours().map(|other| places[other].betweenness)),
-                count(neighbours().map(|other| log_area[other] - median < SMALL)),
-                count(neighbours().map(|other| log_area[other] - median > LARGE)),
-                mean(neighbours().map(|other| f64::from(u8::from(log_area[other] > area + EQUAL)))).unwrap_or(0.5),
-                // Alike.
-                of_area[index],
-                of_area[index] / others,
-                same,
-                same / others,
-                area - common,
-                siblings.len() as f64,
-                if siblings.is_empty() { 0.0 } else { quantile(&sorted(&sibling_areas), 0.5) - area },
-                count(sibling_areas.iter().map(|other| (other - area).abs() <= ALIKE)),
-            ];
-            let numbers = own.iter().chain(&plan).map(|&number| number as f32);
-            numbers.map(|number| if number.is_finite() { number } else { 0.0 }).collect()
-        })
-        .collect()
+    // The areas of each family, in order.
+    let mut family_areas: Vec<f64> = Vec::new();
+    let mut family_starts: Vec<usize> = Vec::with_capacity(families.len() + 1);
+    family_starts.push(0);
+    for family in families.iter() {
+        let from = family_areas.len();
+        family_areas.extend(family.iter().map(|&room| log_area[room as usize]));
+        family_areas[from..].sort_unstable_by(f64::total_cmp);
+        family_starts.push(family_areas.len());
+    }
+    let mut rows = Rows::with_capacity(FEATURES.len(), rooms.len());
+    for (index, room) in rooms.iter().enumerate() {
+        let area = log_area[index];
+        let neighbours = || view.joined(index);
+        let ends = count(neighbours().map(|other| degree[other] <= 1.0));
+        let related = |pick: fn(f64, f64) -> f64| neighbours().map(|other| log_area[other]).reduce(pick);
+        let (largest_neighbour, smallest_neighbour) = (related(f64::max), related(f64::min));
+        let beside = |area_beside: Option<f64>| area_beside.map_or(0.0, |beside| beside - area);
+        let family = view.family(index).map(|family| &family_areas[family_starts[family]..family_starts[family + 1]]);
+        let siblings = family.map_or(0, |family| family.len() - 1);
+        let (sibling_median, siblings_alike) = family.map_or((0.0, 0.0), |family| Family(family).without(area));
+        let same = of_area_and_shape[index];
+        let own = [
+            area - median,
+            area - largest,
+            area - total,
+            area_rank[index],
+            area,
+            // Size above, form below.
+            log(room.axes_ratio),
+            aspect[index],
+            log(room.form.perimeter_m) - area / 2.0,
+            room.form.convexity,
+            room.form.fill(room.area_m2),
+            f64::from(room.form.walls),
+            log_length[index] - side,
+            log_width[index] - side,
+            length_rank[index],
+            width_rank[index],
+            // Openings.
+            doors[index],
+            degree[index],
+            degree[index] / most_joined.max(1.0),
+            door_rank[index],
+            doors[index] / room.form.perimeter_m.max(LEAST) * side.exp(),
+            passages[index],
+            count(room.doors.iter().map(|door| door.kind == OpeningKind::DoubleDoor)),
+            count(room.doors.iter().map(|door| door.to.is_none())),
+            count(room.doors.iter().map(|door| door.to.is_some())) - degree[index],
+            // Place.
+            places[index].betweenness,
+            closeness[index] - mean_closeness,
+            closeness_rank[index],
+            places[index].farthest,
+            to_hub[index],
+            places[index].reach,
+            // Neighbours.
+            ends,
+            ends / degree[index].max(1.0),
+            beside(mean(neighbours().map(|other| log_area[other]))),
+            beside(largest_neighbour),
+            beside(smallest_neighbour),
+            largest_neighbour.map_or(0.0, |beside| beside - median),
+            most(neighbours().map(|other| degree[other])),
+            mean(neighbours().map(|other| degree[other])).unwrap_or_default(),
+            most(neighbours().map(|other| log(rooms[other].axes_ratio))),
+            most(neighbours().map(|other| places[other].betweenness)),
+            count(neighbours().map(|other| log_area[other] - median < SMALL)),
+            count(neighbours().map(|other| log_area[other] - median > LARGE)),
+            mean(neighbours().map(|other| f64::from(u8::from(log_area[other] > area + EQUAL)))).unwrap_or(0.5),
+            // Alike.
+            of_area[index],
+            of_area[index] / others,
+            same,
+            same / others,
+            area - common,
+            siblings as f64,
+            if siblings == 0 { 0.0 } else { sibling_median - area },
+            siblings_alike,
+        ];
+        let numbers = own.iter().chain(&plan).map(|&number| number as f32);
+        rows.push(numbers.map(|number| if number.is_finite() { number } else { 0.0 }));
+    }
+    rows
 }

@@ -165,6 +165,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .menu(Menu::Dataset, 1),
+    tool(&tools::COMMON_POINTS, has_storey_below).menu(Menu::Dataset, 1),
     with(
         "workspace-show",
         "Show the folder as…",

@@ -15,8 +15,9 @@ fn has_run(app: &App) -> Availability {
 /// A run that can go on.
 fn can_drive(app: &App) -> Availability {
     has_run(app)?;
-    let can = app.session.robot_run().is_some_and(|run| matches!(run.state, State::Running | State::Paused));
-    when(can, "the robot has nothing left to do")
+    let state = app.session.robot_run().map(|run| &run.state);
+    when(state != Some(&State::Preparing), "wait until the robot's world is made")?;
+    when(matches!(state, Some(State::Running | State::Paused)), "the robot has nothing left to do")
 }
 
 fn can_hurry(app: &App) -> Availability {

@@ -257,6 +257,12 @@ impl Inspected<'_> {
         if neighbours.is_empty() {
             caption(ui, "No opening leads here.");
         }
+        if let Some(below) = self.app.session.shown_ghost() {
+            for link in below.links_to(self.plan).iter().filter(|link| link.upper == id) {
+                let other = title_of(&below.plan, ElementId::Room(link.lower));
+                caption(ui, format!("Leads down to {other} of {}", below.title));
+            }
+        }
         let mut act = None;
         ui.add_space(-2.0);
         ui.spacing_mut().item_spacing.y = 0.0;

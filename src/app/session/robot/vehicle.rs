@@ -6,7 +6,7 @@ use crate::robot::explore::Activity;
 use crate::robot::frontiers::Frontier;
 use crate::robot::log_map::Surroundings;
 use crate::robot::log_replay::LogReplay;
-use crate::robot::rooms::{RoomOptions, find_rooms};
+use crate::robot::rooms::RoomOptions;
 use crate::robot::{Exploration, Pose, Scan};
 
 /// How fast a robot drives and turns, in m/s and rad/s: with these a step of 0.2 m or of 20 degrees takes the
@@ -101,7 +101,8 @@ impl Vehicle for Exploration {
     fn surroundings(&self, seed: u64) -> Surroundings {
         let segments = Exploration::segments(self);
         let options = RoomOptions { seed, ..RoomOptions::default() };
-        let found = find_rooms(&segments, self.free.shapes(), &options);
+        // As `enfilade explore` finds them.
+        let found = Exploration::rooms(self, &options);
         Surroundings { free: self.free.clone(), frontiers: Exploration::frontiers(self), found, segments }
     }
 
