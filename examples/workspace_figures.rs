@@ -125,7 +125,7 @@ fn main() {
                 query::rooms(&workspace, &Query::default(), Order::by(by), &quiet).unwrap()
             });
         }
-        for command in ["ls -lR .", "grep -r stairs ."] {
+        for command in ["ls -lR .", "find . -type f -printf '%p %s %T@\\n'", "grep -r stairs ."] {
             timed(command, || {
                 let mut shell = std::process::Command::new("sh");
                 shell.arg("-c").arg(command).current_dir(folder.path()).stdout(std::process::Stdio::null());

@@ -178,8 +178,7 @@ pub fn queue(
             let room = networks[suspect.place.network].rooms[suspect.place.room].id;
             let known = material.known(&suspect.row.file, room);
             let reasons = reasons(&suspect, schemes, &known.findings, unlike[suspect.place.network]);
-            let given = suspect.probability().clamp(1e-9, 1.0 - 1e-9);
-            let mut odds = ((1.0 - given) / given).ln();
+            let mut odds = suspect.odds().ln();
             for reason in &reasons {
                 odds += match reason {
                     Reason::AgainstFunction { .. } => AGAINST_FUNCTION,

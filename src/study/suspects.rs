@@ -1,4 +1,4 @@
-//! Labels that are probably wrong: rooms by the probability that classifiers give their label which did not learn from them
+//! Labels that are probably wrong: rooms by the odds that their label is, as classifiers see it which did not learn from them
 //! (confident learning without a threshold; Northcutt, Jiang and Chuang 2021). Several classifiers are asked, since each alone is wrong
 //! about rooms of its own, and the mean of their log-probabilities counts. Rooms of the same size and form in one building speak
 //! for each other. The review queue and `enfilade suspects` both stand on this.
@@ -10,7 +10,7 @@ use super::noise::is_alike;
 use crate::base::random::seed_of_part;
 use crate::base::units::Units;
 use crate::base::work::{Cancelled, Work};
-use crate::classify::joint::{FirstRound, Joint};
+use crate::classify::joint::{FirstRound, Joint, by_other_rooms};
 use crate::classify::models::Models;
 use crate::classify::{Algorithm, Distribution, Validation, evaluate_all};
 use crate::dataset::folds::{Folds, Grouping, group_of};
@@ -44,6 +44,39 @@ impl Suspect {
     pub fn probability(&self) -> f64 {
         self.said.probability(self.row.label)
     }
+
+    /// The odds that its label is wrong, up to a factor that is the same for all rooms: see [`odds_of_mistake`].
+    pub fn odds(&self) -> f64 {
+        odds_of_mistake(&self.said, self.row.label)
+    }
+}
+
+/// The odds that a label is wrong by what is said of the room, if wrong labels were as frequent as right ones. A label that is easily
+/// mistaken for the right one is likelier to be given than another: it is assumed that one half of the mistakes are any other label,
+/// and the other half those of the neighbouring sizes, and halls for corridors and the reverse.
+fn odds_of_mistake(said: &Distribution, given: Label) -> f64 {
+    /// Of mistakes, those that are no better than chance.
+    const BY_CHANCE: f64 = 0.5;
+    /// No opinion makes a label impossible.
+    const LEAST: f64 = 1e-6;
+    let of_truth = |truth: Label| {
+        let easy = easily_mistaken(truth);
+        let easily = if easy.contains(&given) { 1.0 / easy.len() as f64 } else { 0.0 };
+        said.probability(truth) * (BY_CHANCE * 0.25 + (1.0 - BY_CHANCE) * easily)
+    };
+    let wrong: f64 = Label::ALL.into_iter().filter(|&truth| truth != given).map(of_truth).sum();
+    // As many times as there are labels to mistake it for, so that a mistake by chance alone gives the odds of `said`.
+    4.0 * wrong.max(LEAST) / said.probability(given).max(LEAST)
+}
+
+/// The labels that people give by mistake for a label.
+const fn easily_mistaken(truth: Label) -> &'static [Label] {
+    match truth {
+        Label::SmallRoom | Label::BigRoom => &[Label::MediumRoom],
+        Label::MediumRoom => &[Label::SmallRoom, Label::BigRoom],
+        Label::Corridor => &[Label::Hall],
+        Label::Hall => &[Label::Corridor],
+    }
 }
 
 /// Opinions of classifiers that did not learn from a room, by kind of classifier, for each labelled room.
@@ -59,7 +92,7 @@ pub struct Opinions {
     by_function: Vec<Option<(Label, usize, usize)>>,
 }
 
-/// All rooms, those whose given label is least probable first. Each typology is judged by itself. `work` counts folds.
+/// All rooms, those whose given label is likeliest to be wrong first. Each typology is judged by itself. `work` counts folds.
 ///
 /// # Errors
 /// When the collection holds rows of a file rather than plans, has too few rooms, or the work is cancelled.
@@ -92,7 +125,7 @@ const FEW_ROOMS: usize = 200;
 const FEW_BUILDINGS: usize = 5;
 
 impl Opinions {
-    /// All rooms, those whose given label is least probable first; of equals the first in the collection.
+    /// All rooms, those whose given label is likeliest to be wrong first; of equals the first in the collection.
     fn suspects(&self, networks: &[RoomNetwork]) -> Vec<Suspect> {
         let alike = Alike::new(&self.rows, &self.places, networks);
         let mut suspects: Vec<Suspect> = self
@@ -119,7 +152,7 @@ impl Opinions {
                 }
             })
             .collect();
-        suspects.sort_by(|p, q| p.probability().total_cmp(&q.probability()));
+        suspects.sort_by(|p, q| q.odds().total_cmp(&p.odds()));
         suspects
     }
 }
@@ -188,15 +221,18 @@ fn together<'a>(said: impl Iterator<Item = (&'a str, Distribution)>) -> Distribu
     Distribution::from_weights(sums.map(|sum| (sum / weights).exp()))
 }
 
-/// How much a kind of classifier counts. The joint one is asked once, and knows as much as the others together.
+/// How much a kind of classifier counts. Chosen on errors planted in offices (`examples/planted_errors`, seeds 11 and 12).
 fn weight_of(name: &str) -> f64 {
     match name {
+        // It knows the building's customs.
+        BY_ROOM => 8.0,
         JOINT => 4.0,
         // Asked alone, it would be drowned by the rooms of one function.
         MODELS => 8.0,
         // Rooms of one function seldom differ in label.
         BY_FUNCTION => 16.0,
-        _ => 1.0,
+        // One of the eight of the four learners, which see less of a room.
+        _ => 0.25,
     }
 }
 
@@ -205,6 +241,9 @@ const BY_FUNCTION: &str = "by function";
 
 /// The name of the models at hand among [`Opinions::of`].
 const MODELS: &str = "models at hand";
+
+/// The name of the forest that learned from the other rooms, among [`Opinions::of`].
+const BY_ROOM: &str = "forest, folds by room";
 
 /// The name of the joint classifier among [`Opinions::of`].
 const JOINT: &str = "joint";
@@ -289,8 +328,9 @@ impl Opinions {
             for (algorithm, validated) in Algorithm::ALL.into_iter().zip(evaluate_all(&validations, work)?) {
                 self.tell(&format!("{}, folds by {}", algorithm.name(), by.name()), of_set, &validated.predictions);
             }
-            if by == Grouping::Building {
-                self.ask_jointly(networks, of_set, &folds, seed, work)?;
+            match by {
+                Grouping::Building => self.ask_jointly(networks, of_set, &folds, seed, work)?,
+                Grouping::Room => self.ask_by_room(networks, of_set, &folds, seed, work)?,
             }
         }
         self.ask_by_function(of_set, &own);
@@ -370,6 +410,22 @@ impl Opinions {
         }
     }
 
+    /// A forest that learned from all other rooms.
+    fn ask_by_room(
+        &mut self,
+        networks: &[RoomNetwork],
+        of_set: &[usize],
+        folds: &Folds,
+        seed: u64,
+        work: &Work<'_>,
+    ) -> Result<(), Cancelled> {
+        let of_rows: BTreeSet<usize> = of_set.iter().map(|&row| self.places[row].network).collect();
+        let networks: Vec<&RoomNetwork> = of_rows.into_iter().map(|network| &networks[network]).collect();
+        let said = by_other_rooms(&networks, folds, seed, &work.alone().on_threads(work.threads()))?;
+        self.tell(BY_ROOM, of_set, &said);
+        Ok(())
+    }
+
     /// The joint classifier, which learned from other buildings and knows the labels of the room's own plan, its own excepted.
     fn ask_jointly(
         &mut self,
@@ -428,4 +484,30 @@ impl Opinions {
 pub fn contradiction(row: &Row, by_scheme: Option<Label>) -> Option<String> {
     let by_scheme = by_scheme.filter(|&label| label != row.label)?;
     Some(format!("Its function, {}, makes it a {}.", row.function, by_scheme.name()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn easy_mistakes_are_likelier_than_others_and_as_likely_together() {
+        // Surely a medium room, as far as others can tell.
+        let said = Distribution::from_weights([0.05, 0.8, 0.05, 0.05, 0.05]);
+        let [small, big, corridor] =
+            [Label::SmallRoom, Label::BigRoom, Label::Corridor].map(|given| odds_of_mistake(&said, given));
+        assert!(small > 2.0 * corridor && (small - big).abs() < 1e-9, "{small} {big} {corridor}");
+        assert!(odds_of_mistake(&said, Label::MediumRoom) < 0.5);
+        // On average the odds are those of the probability alone.
+        for truth in Label::ALL {
+            let sure =
+                Distribution::from_weights(std::array::from_fn(|at| if at == truth.index() { 0.96 } else { 0.01 }));
+            let wrong = Label::ALL.into_iter().filter(|&given| given != truth);
+            let mean = wrong.map(|given| odds_of_mistake(&sure, given)).sum::<f64>() / 4.0;
+            assert!((mean / 96.0 - 1.0).abs() < 0.05, "{truth}: {mean}");
+        }
+        // Nothing is impossible.
+        let certain = Distribution::from_weights([1.0, 0.0, 0.0, 0.0, 0.0]);
+        assert!(Label::ALL.into_iter().all(|given| odds_of_mistake(&certain, given).ln().is_finite()));
+    }
 }

@@ -13,6 +13,7 @@ mod around;
 mod asked;
 mod explain;
 mod places;
+mod room_by_room;
 mod rows;
 mod store;
 mod trees;
@@ -24,6 +25,7 @@ use std::sync::Arc;
 
 pub use altered::Alterations;
 pub use explain::{GroupEffect, JointExplanation, NeighbourEffect};
+pub use room_by_room::by_other_rooms;
 pub use store::JointModelError;
 pub use view::Group;
 
