@@ -423,7 +423,9 @@ impl Predictions {
             (PlanClassifier::Joint(joint), Origin::Joint(round)) => {
                 Some(joint.explain_from(round, &self.network, &self.known, index)?.why(units))
             }
-            (PlanClassifier::Blend(blend), Origin::Blend(opinions)) => blend.why(opinions, &self.network, index, units),
+            (PlanClassifier::Blend(blend), Origin::Blend(opinions)) => {
+                blend.why(opinions, &self.network, &self.known, index, units)
+            }
             (PlanClassifier::Joint(_) | PlanClassifier::Blend(_), _) => None,
         }
     }

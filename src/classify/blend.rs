@@ -263,7 +263,14 @@ impl Blend {
 
     /// Why a room got its label, with areas in these units; `None` for a room that is not in the network. The points are those
     /// of the joint classifiers in the blend; which part said what stands behind them.
-    pub fn why(&self, opinions: &Opinions, network: &RoomNetwork, room: usize, units: Units) -> Option<Why> {
+    pub fn why(
+        &self,
+        opinions: &Opinions,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
+        room: usize,
+        units: Units,
+    ) -> Option<Why> {
         let label = opinions.distributions.get(room)?.label();
         let mut told: Vec<(f64, JointExplanation)> = Vec::new();
         for (part, round) in self.parts.iter().zip(&opinions.heard.rounds) {
@@ -273,7 +280,7 @@ impl Blend {
             }
         }
         let mut why = match JointExplanation::pooled(told, label) {
-            Some(explanation) => explanation.why(units),
+            Some(explanation) => explanation.beside_given(known).why(units),
             None => Why { label, points: Vec::new(), conclusion: String::new() },
         };
         let said: Vec<(&Part, Distribution)> =
@@ -414,7 +421,7 @@ mod tests {
                 let of = |part: usize| opinions.heard.of_parts[part][room].probability(label);
                 assert!((said.probability(label) - 0.75 * of(0) - 0.25 * of(1)).abs() < 1e-9);
             }
-            let why = blend.why(&opinions, &network, room, Units::Metric).unwrap();
+            let why = blend.why(&opinions, &network, &[], room, Units::Metric).unwrap();
             assert_eq!(why.label, said.label());
             for who in ["joint classifier of offices (", "multilayer perceptron of offices ("] {
                 assert!(why.conclusion.contains(who), "{}", why.conclusion);

@@ -142,7 +142,7 @@ pub struct Queue {
 /// What the evidence adds to the log-odds of a wrong label, besides the probability of the label. Chosen by hand on planted errors
 /// (`examples/planted_errors`): a label against its function is wrong more often than not whatever else is known; a finding or
 /// a plan unlike the others only decides between rooms that are equally doubtful.
-const AGAINST_FUNCTION: f64 = 4.0;
+const AGAINST_FUNCTION: f64 = 5.0;
 const FINDING: f64 = 0.3;
 const UNLIKE: f64 = 0.2;
 

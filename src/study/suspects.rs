@@ -128,16 +128,21 @@ impl Opinions {
     /// All rooms, those whose given label is likeliest to be wrong first; of equals the first in the collection.
     fn suspects(&self, networks: &[RoomNetwork]) -> Vec<Suspect> {
         let alike = Alike::new(&self.rows, &self.places, networks);
+        let mut rooms_of: BTreeMap<Option<&Typology>, usize> = BTreeMap::new();
+        for row in &self.rows {
+            *rooms_of.entry(row.typology.as_ref()).or_default() += 1;
+        }
         let mut suspects: Vec<Suspect> = self
             .rows
             .iter()
             .enumerate()
             .map(|(index, row)| {
                 let all = || self.of.iter().filter_map(move |(name, of)| Some((name.as_str(), of[index]?)));
-                let said = together(all());
+                let learned_from = rooms_of.get(&row.typology.as_ref()).copied().unwrap_or_default();
+                let said = together(all(), learned_from);
                 // As much weight as what the classifiers say by themselves: they are right about rooms that have no like.
                 let with_alike = Distribution::smoothed(alike.near[index], &said, 1.0);
-                let said = together([("", said), ("", with_alike)].into_iter());
+                let said = together([("", said), ("", with_alike)].into_iter(), learned_from);
                 let classifiers = || all().filter(|(name, _)| *name != BY_FUNCTION);
                 let reason = if said.label() == row.label { String::new() } else { self.reasons[index].clone() };
                 Suspect {
@@ -202,14 +207,14 @@ impl Alike {
     }
 }
 
-/// What several say together: the geometric mean of their probabilities.
-fn together<'a>(said: impl Iterator<Item = (&'a str, Distribution)>) -> Distribution {
+/// What several say together who learned from so many rooms: the geometric mean of their probabilities.
+fn together<'a>(said: impl Iterator<Item = (&'a str, Distribution)>, learned_from: usize) -> Distribution {
     /// No opinion alone rules a label out.
     const LEAST: f64 = 0.002;
     let mut sums = [0.0; 5];
     let mut weights = 0.0;
     for (name, said) in said {
-        let weight = weight_of(name);
+        let weight = weight_of(name, learned_from);
         // Rooms that agree with each other may.
         let least = if name == BY_FUNCTION { f64::MIN_POSITIVE } else { LEAST };
         weights += weight;
@@ -221,18 +226,23 @@ fn together<'a>(said: impl Iterator<Item = (&'a str, Distribution)>) -> Distribu
     Distribution::from_weights(sums.map(|sum| (sum / weights).exp()))
 }
 
-/// How much a kind of classifier counts. Chosen on errors planted in offices (`examples/planted_errors`, seeds 11 and 12).
-fn weight_of(name: &str) -> f64 {
+/// From so many rooms of a typology on, a forest that looks at all of a room is worth its full weight.
+const ENOUGH_ROOMS: usize = 300;
+
+/// How much a kind of classifier counts. Chosen on errors planted in offices (`examples/planted_errors`, seeds 11 and 12), which have
+/// enough rooms. From few rooms a forest learns to be sure of too much, and the learners of eight features make up for it.
+fn weight_of(name: &str, learned_from: usize) -> f64 {
+    let enough = (learned_from as f64 / ENOUGH_ROOMS as f64).min(1.0);
     match name {
         // It knows the building's customs.
-        BY_ROOM => 8.0,
+        BY_ROOM => 8.0 * enough,
         JOINT => 4.0,
         // Asked alone, it would be drowned by the rooms of one function.
         MODELS => 8.0,
         // Rooms of one function seldom differ in label.
         BY_FUNCTION => 16.0,
         // One of the eight of the four learners, which see less of a room.
-        _ => 0.25,
+        _ => 1.0 - 0.75 * enough,
     }
 }
 

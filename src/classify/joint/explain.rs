@@ -72,6 +72,8 @@ struct Seen {
     most_joined: usize,
     /// The labels of these rooms, with how many have each.
     joined_labels: Vec<(Label, usize)>,
+    /// Whether some of these labels were predicted, though another was given.
+    are_against_given: bool,
     /// Other rooms of about its area.
     alike: Vec<usize>,
     /// The rooms it is compared with.
@@ -184,6 +186,7 @@ impl Seen {
             joined,
             is_flat: view.flat[room].is_some(),
             joined_labels: Label::ALL.map(of_label).into_iter().filter(|(_, count)| *count > 0).collect(),
+            are_against_given: false,
             alike: compared.iter().copied().filter(is_alike).collect(),
             compared,
         }
@@ -224,6 +227,7 @@ impl Seen {
                     [] => "it opens to no other room".to_owned(),
                     labels => format!("it opens to {}", and_list(labels)),
                 };
+                let opens = if self.are_against_given { opens + " (as predicted)" } else { opens };
                 let itself =
                     if first == label { format!("it looks like a {label} by itself, and ") } else { String::new() };
                 (itself + &opens, OnPlan::Rooms(self.joined.clone()))
@@ -317,6 +321,14 @@ impl JointExplanation {
             neighbours: one.neighbours.iter().map(neighbour).collect(),
             seen: one.seen.clone(),
         })
+    }
+
+    /// The same, which says where labels of other rooms that were predicted are not those that were given.
+    pub fn beside_given(mut self, given: &[Option<Label>]) -> Self {
+        let is_against =
+            |it: &NeighbourEffect| given.get(it.room).copied().flatten().is_some_and(|label| label != it.label);
+        self.seen.are_against_given = self.neighbours.iter().any(is_against);
+        self
     }
 
     /// The probability of the predicted label, 0..=1.
