@@ -45,7 +45,8 @@ impl Suspect {
         self.said.probability(self.row.label)
     }
 
-    /// The odds that its label is wrong, up to a factor that is the same for all rooms: see [`odds_of_mistake`].
+    /// The odds that its label is wrong, up to a factor that is the same for all rooms, given how people err: half of the
+    /// mistakes are any other label, half the neighbouring size, or hall for corridor.
     pub fn odds(&self) -> f64 {
         odds_of_mistake(&self.said, self.row.label)
     }
