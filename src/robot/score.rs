@@ -76,6 +76,11 @@ impl Score {
         self.rooms.iter().filter(|room| room.fate == fate).count()
     }
 
+    /// Number of found rooms that are asked for or invented: without those of which a room out of reach was seen through its door.
+    pub fn counted_rooms(&self) -> usize {
+        self.rooms.iter().filter_map(|room| room.best).collect::<BTreeSet<usize>>().len() + self.invented.len()
+    }
+
     /// Share of the reachable rooms that were found, 0..=1; 1 if there are none.
     pub fn room_recall(&self) -> f64 {
         share(self.count(Fate::Found), self.rooms.len())

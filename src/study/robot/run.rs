@@ -25,8 +25,8 @@ use crate::robot::{Pose, World};
 /// Steps after which a run counts as not ended: a school of 60 rooms takes about 5,000.
 const MOST_STEPS: usize = 20_000;
 
-/// The form of a stored record.
-const VERSION: u32 = 1;
+/// The form of a stored record. In the first, `found_rooms` counted rooms out of reach too.
+const VERSION: u32 = 2;
 
 /// What came of a run; it can be stored, and is the same for the same plan, condition, seed and program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,7 +52,7 @@ pub struct Explored {
     pub rooms: Vec<TrueRoom>,
     /// Number of true rooms out of its reach.
     pub unreachable: usize,
-    /// Number of rooms it found, right or wrong.
+    /// Number of rooms it found, right or wrong, without those out of its reach that it saw through a door.
     pub found_rooms: usize,
     pub true_edges: usize,
     pub right_edges: usize,
@@ -171,7 +171,7 @@ pub fn explore(
         path_error_m: trim_m(crate::base::numbers::mean(off_m).unwrap_or_default()),
         rooms: rooms.collect(),
         unreachable: score.unreachable.len(),
-        found_rooms: found.rooms.len(),
+        found_rooms: score.counted_rooms(),
         true_edges: score.true_edges.len(),
         right_edges: score.right_edges.len(),
         wrong_edges: score.wrong_edges,

@@ -72,7 +72,7 @@ pub struct ConditionLine {
     pub split: usize,
     pub merged: usize,
     pub missed: usize,
-    /// Rooms the robots put into their plans.
+    /// Rooms the robots put into their plans, without those out of reach that they saw through a door.
     pub found_rooms: usize,
     /// Share of the rooms in reach that were found, and of the robots' rooms that are true ones.
     pub room_recall: f64,
