@@ -94,8 +94,10 @@ impl App {
 
     /// Escape closes a list that is open in a dialog, and leaves the dialog open.
     fn close_list_before_dialog(&self, context: &Context) {
-        let is_pressed = |context: &Context| context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
-        if self.dialogs.is_any_open() && Popup::is_any_open(context) && is_pressed(context) {
+        if self.dialogs.is_any_open()
+            && Popup::is_any_open(context)
+            && context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape))
+        {
             Popup::close_all(context);
         }
     }
