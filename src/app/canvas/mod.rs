@@ -244,8 +244,9 @@ impl Canvas {
             paint_group(&painter, rect, &view, &group);
         }
         self.ghost.paint(&painter, rect, session.shown_ghost().map(|ghost| &ghost.derived), &style, &view);
-        if let Some(below) = session.shown_ghost() {
-            storeys::paint_links(&painter, rect, &view, document.plan(), below, palette);
+        if let Some((below, derived)) = session.shown_ghost().zip(shown) {
+            let above = &derived.analysis.shapes;
+            storeys::paint_links(&painter, rect, &view, document.plan(), above, below, palette);
         }
         if let Some(seen) = session.robot_seen() {
             self.robot.paint(&painter, rect, &view, palette, session.units(), &seen, self.pointed.at);

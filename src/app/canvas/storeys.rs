@@ -6,7 +6,7 @@ use crate::app::look::theme;
 use crate::app::paint::places::on_screen;
 use crate::app::session::ghost::Ghost;
 use crate::draw::{Palette, View};
-use crate::geometry::{Bounds, Point};
+use crate::geometry::Point;
 use crate::plan::Plan;
 use crate::topology::RoomShapes;
 
@@ -18,23 +18,26 @@ const LEAST_PX: f32 = 30.0;
 
 /// Marks each room whose stairs or lift lie over those below: an arrow down in its lower left corner, and a dashed line
 /// around the room below.
-pub(super) fn paint_links(painter: &Painter, rect: Rect, view: &View, plan: &Plan, below: &Ghost, palette: &Palette) {
-    let links = below.links_to(plan);
-    if links.is_empty() {
-        return;
-    }
-    let (above, lower) =
-        (RoomShapes::of_rooms(plan, links.iter().map(|link| link.upper)), &below.derived.analysis.shapes);
+/// `above` holds the rooms as they are drawn.
+pub(super) fn paint_links(
+    painter: &Painter,
+    rect: Rect,
+    view: &View,
+    plan: &Plan,
+    above: &RoomShapes,
+    below: &Ghost,
+    palette: &Palette,
+) {
+    let lower = &below.derived.analysis.shapes;
     let ink = theme::colour(palette.snap);
-    for link in &links {
+    for link in below.links_to(plan).iter() {
         if let Some(shape) = lower.get(link.lower) {
             let mut ring: Vec<_> = shape.outer.iter().map(|point| on_screen(rect, view, *point)).collect();
             ring.extend(ring.first().copied());
             painter.extend(Shape::dashed_line(&ring, Stroke::new(1.5, ink), 6.0, 4.0));
         }
         let Some(shape) = above.get(link.upper) else { continue };
-        let bounds = Bounds::of(shape.outer.iter().copied());
-        let (a, b) = (on_screen(rect, view, bounds.min), on_screen(rect, view, bounds.max));
+        let (a, b) = (on_screen(rect, view, shape.bounds.min), on_screen(rect, view, shape.bounds.max));
         let seen = Rect::from_two_pos(a, b);
         if seen.width().min(seen.height()) < LEAST_PX {
             continue;

@@ -29,7 +29,7 @@ pub(crate) struct Ghost {
     pub(crate) derived: Arc<Derived>,
     segments: Vec<Segment>,
     /// The links last found, and the plan above that they lead to.
-    links: RefCell<Option<(Plan, Vec<VerticalLink>)>>,
+    links: RefCell<Option<(Plan, Arc<[VerticalLink]>)>>,
 }
 
 impl Ghost {
@@ -46,12 +46,12 @@ impl Ghost {
     }
 
     /// Its stairs and lifts that lead to those of the plan above: found anew only when that plan has changed.
-    pub(crate) fn links_to(&self, above: &Plan) -> Vec<VerticalLink> {
+    pub(crate) fn links_to(&self, above: &Plan) -> Arc<[VerticalLink]> {
         let mut known = self.links.borrow_mut();
         match known.as_ref() {
             Some((plan, links)) if plan.is_same_value(above) => links.clone(),
             _ => {
-                let links = vertical_links(&self.plan, above);
+                let links: Arc<[VerticalLink]> = vertical_links(&self.plan, above).into();
                 *known = Some((above.clone(), links.clone()));
                 links
             }
