@@ -1,4 +1,5 @@
-//! From an edit to the labels of all rooms, in schools of 500 and 5,000 rooms: `cargo bench --bench live [EDITS]`.
+//! From an edit to the labels of all rooms, in schools of 500 and 5,000 rooms: `cargo bench --bench live -- [EDITS [ROOMS [KIND]]]`,
+//! the kind being the place of an edit in the table, from 0.
 //!
 //! The goals: under 4 ms at the 99th percentile for 500 rooms, under 16 ms for 5,000, on two cores.
 #![allow(
@@ -81,7 +82,8 @@ fn line(name: &str, times: &[[f64; 2]]) {
 
 fn main() {
     let numbers: Vec<usize> = std::env::args().skip(1).filter_map(|word| word.parse().ok()).collect();
-    let (edits, only) = (numbers.first().copied().unwrap_or(120), numbers.get(1).copied());
+    let (edits, only, kind) =
+        (numbers.first().copied().unwrap_or(120), numbers.get(1).copied(), numbers.get(2).copied());
     let (schemes, models, by) = (Schemes::bundled(), Models::bundled(), LabelledBy::default());
     for rooms in [500, 5000].into_iter().filter(|rooms| only.is_none_or(|only| only == *rooms)) {
         let mut plan = large_school::large_school(rooms);
@@ -98,7 +100,7 @@ fn main() {
         };
         let mut labelled = Labelled::new(&plan, &schemes, by, None);
         for turn in 0..edits {
-            let kind = random.below(KINDS.len());
+            let kind = kind.unwrap_or_else(|| random.below(KINDS.len()));
             let after = if kind == UNDO { Some(before.clone()) } else { edited(&plan, kind, &mut random) };
             let Some(after) = after else { continue };
             before = std::mem::replace(&mut plan, after);

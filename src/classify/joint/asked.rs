@@ -1,10 +1,12 @@
 //! A forest laid out to be asked about many rooms, again and again.
 //!
-//! Its nodes lie one after the other, and rooms are asked about tree by tree and several at once, so that a tree is fetched
-//! once for many rooms, and the processor has something to do while it waits for a node.
+//! Its nodes lie one after the other, and rooms are asked about tree by tree and all at once: each node sorts the rooms that come
+//! to it by their answers. So a question is fetched once for many rooms, and nothing waits for the answer of one.
 //! What was said of a room is kept with how far each of its features may go before a question on the way is answered
 //! otherwise: as long as none goes further, the answer is the same to the last bit, and nothing is asked.
 
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::rows::Rows;
@@ -31,9 +33,9 @@ pub(super) struct Asked {
     /// Where each tree begins among the nodes, and where the last one ends.
     starts: Vec<usize>,
     steps: Vec<Step>,
-    /// For each node that is a leaf its place among the leaves.
+    /// For each node that is a leaf the place of its shares.
     leaf_at: Vec<u32>,
-    /// For each leaf the share of each label.
+    /// The shares of the labels that leaves have, without repeats.
     leaves: Vec<[f64; 5]>,
 }
 
@@ -50,11 +52,11 @@ const FEATURE_AT: u32 = 24;
 /// More nodes than this are in no tree.
 pub(super) const MOST_NODES: usize = 1 << FEATURE_AT;
 
-/// Rooms whose ways through a tree are gone side by side: the processor need not wait for one before it turns to the next.
-const LANES: usize = 8;
+/// More rooms than this are not asked about together: what is known of them stays in the processor's second memory.
+const MOST_TOGETHER: usize = 4096;
 
-/// Rooms asked about together, a multiple of [`LANES`]: they stay in the processor's nearest memory.
-const TOGETHER: usize = 64;
+/// Fewer are not worth another thread: to ask about them takes a tenth of a millisecond.
+const WORTH_A_THREAD: usize = 64;
 
 /// What a forest said of a room, and for which features it still says so.
 #[derive(Debug)]
@@ -77,36 +79,71 @@ impl Held {
     }
 }
 
-/// The features of some rooms, [`LANES`] rooms after each other and of these feature by feature.
-struct Lanes {
+/// The features of some rooms, feature by feature.
+struct Columns {
     values: Vec<f32>,
-    /// Numbers of one group of rooms.
-    size: usize,
+    rooms: usize,
 }
 
-impl Lanes {
-    fn new() -> Self {
-        Self { values: Vec::new(), size: 0 }
-    }
-
-    /// Lanes that are left over are zero.
-    fn fill<'a>(&mut self, width: usize, rows: impl ExactSizeIterator<Item = &'a [f32]>) {
-        self.size = width * LANES;
-        self.values.clear();
-        self.values.resize(self.size * rows.len().div_ceil(LANES), 0.0);
+impl Columns {
+    fn new<'a>(width: usize, rows: impl ExactSizeIterator<Item = &'a [f32]>) -> Self {
+        let rooms = rows.len();
+        let mut values = vec![0.0; width * rooms];
         for (room, row) in rows.enumerate() {
-            let group = &mut self.values[room / LANES * self.size..];
-            for (slot, value) in group.iter_mut().skip(room % LANES).step_by(LANES).zip(row) {
-                *slot = *value;
+            for (column, &value) in values.chunks_exact_mut(rooms).zip(row) {
+                column[room] = value;
             }
         }
+        Self { values, rooms }
     }
+
+    fn of(&self, feature: usize) -> &[f32] {
+        &self.values[feature * self.rooms..(feature + 1) * self.rooms]
+    }
+}
+
+/// How far each feature of some rooms may go, like [`Bounds`], but feature by feature.
+struct BoundColumns {
+    high: Columns,
+    low: Columns,
+}
+
+impl BoundColumns {
+    fn new(width: usize, rooms: usize) -> Self {
+        let nothing = || Columns { values: vec![f32::INFINITY; width * rooms], rooms };
+        Self { high: nothing(), low: nothing() }
+    }
+
+    fn of(&self, room: usize) -> Bounds {
+        let of =
+            |columns: &Columns| columns.values.iter().skip(room).step_by(columns.rooms).copied().collect::<Vec<_>>();
+        [of(&self.high), of(&self.low)].concat().into_boxed_slice()
+    }
+}
+
+/// Lowers the numbers of some rooms to a number.
+fn lower(columns: &mut Columns, feature: usize, rooms: &[u32], number: f32) {
+    let rooms_of_all = columns.rooms;
+    let column = &mut columns.values[feature * rooms_of_all..(feature + 1) * rooms_of_all];
+    for &room in rooms {
+        let bound = &mut column[room as usize];
+        *bound = if number < *bound { number } else { *bound };
+    }
+}
+
+/// Rooms that came to the same node: their range in one of two lists.
+struct Come {
+    node: usize,
+    rooms: Range<usize>,
+    list: usize,
 }
 
 impl Asked {
     pub fn new(trees: &[Tree]) -> Self {
         let mut asked = Self { starts: vec![0], ..Self::default() };
         let mut waiting: Vec<(usize, usize)> = Vec::new();
+        // Many leaves hold the same counts; few of them stay in the processor's nearest memory.
+        let mut leaf_of: BTreeMap<[u32; 5], u32> = BTreeMap::new();
         for tree in trees {
             let root = asked.steps.len();
             let add = |asked: &mut Self| {
@@ -125,10 +162,13 @@ impl Asked {
                         (at_most, feature, yes)
                     }
                     Node::Leaf(counts) => {
-                        let counts = counts.map(f64::from);
-                        let all: f64 = counts.iter().sum();
-                        asked.leaf_at[place] = asked.leaves.len() as u32;
-                        asked.leaves.push(counts.map(|count| count / all));
+                        let leaves = &mut asked.leaves;
+                        asked.leaf_at[place] = *leaf_of.entry(counts).or_insert_with(|| {
+                            let counts = counts.map(f64::from);
+                            let all: f64 = counts.iter().sum();
+                            leaves.push(counts.map(|count| count / all));
+                            leaves.len() as u32 - 1
+                        });
                         (f32::INFINITY, 0, place)
                     }
                 };
@@ -143,35 +183,41 @@ impl Asked {
         self.starts.windows(2).map(|pair| (&self.steps[pair[0]..pair[1]], &self.leaf_at[pair[0]..pair[1]]))
     }
 
-    /// Asks about at most [`TOGETHER`] rooms, tree by tree: the sums of the shares of each label. `hear` is told each question on
-    /// the way of a room: its place in `lanes` as the index of a number there, the question's number, and whether the feature is
-    /// above it. What it is told at a leaf has no meaning: nothing is above that number.
-    #[inline]
-    fn sums(&self, lanes: &Lanes, mut hear: impl FnMut(usize, f32, bool)) -> [[f64; 5]; TOGETHER] {
-        let mut sums = [[0.0; 5]; TOGETHER];
+    /// Asks about rooms, tree by tree and node by node: the sums of the shares of each label. All rooms that come to a node are
+    /// asked its question one after the other, and told apart by the answer. With `bounds`, these are lowered by each question
+    /// that a room was asked.
+    fn sums(&self, columns: &Columns, mut bounds: Option<&mut BoundColumns>) -> Vec<[f64; 5]> {
+        let mut sums = vec![[0.0; 5]; columns.rooms];
+        // What one list holds of the rooms at a node, the other takes up in the order of the answers.
+        let mut lists = [vec![0_u32; columns.rooms], vec![0_u32; columns.rooms]];
+        let mut waiting: Vec<Come> = Vec::new();
         for (steps, leaf_at) in self.trees() {
-            let groups = lanes.values.chunks_exact(lanes.size).zip(sums.chunks_exact_mut(LANES));
-            for (group, (values, sums)) in groups.enumerate() {
-                let mut at = [0_u32; LANES];
-                loop {
-                    let mut moved = 0;
-                    for (lane, at) in at.iter_mut().enumerate() {
-                        let Step { at_most, to } = steps[*at as usize];
-                        let place = (to >> FEATURE_AT) as usize * LANES + lane;
-                        let is_above = values[place] > at_most;
-                        hear(group * lanes.size + place, at_most, is_above);
-                        // No branch: half of all guesses would be wrong.
-                        let next = (to & (MOST_NODES as u32 - 1)) + u32::from(is_above);
-                        moved |= next ^ *at;
-                        *at = next;
+            lists[0].iter_mut().zip(0..).for_each(|(slot, room)| *slot = room);
+            waiting.push(Come { node: 0, rooms: 0..columns.rooms, list: 0 });
+            while let Some(Come { node, rooms, list }) = waiting.pop() {
+                let [one, other] = &mut lists;
+                let (from, into) = if list == 0 { (one, other) } else { (other, one) };
+                let Step { at_most, to } = steps[node];
+                let yes = to as usize & (MOST_NODES - 1);
+                if yes == node {
+                    let shares = &self.leaves[leaf_at[node] as usize];
+                    for &room in &from[rooms] {
+                        sums[room as usize].iter_mut().zip(shares).for_each(|(sum, share)| *sum += share);
                     }
-                    if moved == 0 {
-                        break;
-                    }
+                    continue;
                 }
-                for (sums, at) in sums.iter_mut().zip(at) {
-                    let shares = &self.leaves[leaf_at[at as usize] as usize];
-                    sums.iter_mut().zip(shares).for_each(|(sum, share)| *sum += share);
+                let feature = (to >> FEATURE_AT) as usize;
+                let (from, into) = (&from[rooms.clone()], &mut into[rooms.clone()]);
+                let below = tell_apart(columns.of(feature), at_most, from, into);
+                if let Some(bounds) = &mut bounds {
+                    lower(&mut bounds.high, feature, &into[..below], at_most);
+                    lower(&mut bounds.low, feature, &into[below..], -at_most);
+                }
+                let middle = rooms.start + below;
+                for (node, rooms) in [(yes + 1, middle..rooms.end), (yes, rooms.start..middle)] {
+                    if !rooms.is_empty() {
+                        waiting.push(Come { node, rooms, list: 1 - list });
+                    }
                 }
             }
         }
@@ -200,13 +246,9 @@ impl Asked {
 
     /// The mean of the trees' answers for each room.
     pub fn predict_all(&self, rows: &Rows) -> Vec<Distribution> {
-        let said = in_parts(rows.len().div_ceil(TOGETHER), |part| {
-            let together = part * TOGETHER..((part + 1) * TOGETHER).min(rows.len());
-            let count = together.len();
-            let mut lanes = Lanes::new();
-            lanes.fill(rows.width(), together.map(|room| rows.of(room)));
-            let sums = self.sums(&lanes, |_, _, _| ());
-            sums.into_iter().take(count).map(Distribution::from_weights).collect::<Vec<_>>()
+        let said = in_parts(rows.len(), |rooms| {
+            let columns = Columns::new(rows.width(), rooms.map(|room| rows.of(room)));
+            self.sums(&columns, None).into_iter().map(Distribution::from_weights).collect::<Vec<_>>()
         });
         said.concat()
     }
@@ -228,47 +270,45 @@ impl Asked {
             }
             held.push(kept);
         }
-        let chunks: Vec<&[usize]> = missing.chunks(TOGETHER).collect();
-        let asked = in_parts(chunks.len(), |part| self.hold(rows, chunks[part]));
+        let asked = in_parts(missing.len(), |rooms| self.hold(rows, &missing[rooms]));
         for (&room, (bounds, said)) in missing.iter().zip(asked.into_iter().flatten()) {
             held[room] = Some(Arc::new(Held { bounds, said: finish(said) }));
         }
         held.into_iter().flatten().collect()
     }
 
-    /// What is said of at most [`TOGETHER`] rooms, and how long.
+    /// What is said of rooms, and how long.
     fn hold(&self, rows: &Rows, rooms: &[usize]) -> Vec<(Bounds, Distribution)> {
-        let mut lanes = Lanes::new();
-        lanes.fill(rows.width(), rooms.iter().map(|&room| rows.of(room)));
-        // For each number the lowest that it was not above, and the negative of the highest that it was.
-        let mut bounds: [Vec<f32>; 2] = std::array::from_fn(|_| vec![f32::INFINITY; lanes.values.len()]);
-        let sums = self.sums(&lanes, |place, at_most, is_above| {
-            let bound = &mut bounds[usize::from(is_above)][place];
-            // The negative, if it is above.
-            let number = f32::from_bits(at_most.to_bits() ^ (u32::from(is_above) << 31));
-            *bound = if number < *bound { number } else { *bound };
-        });
-        let of_room = |room: usize| {
-            let of = |bounds: &'_ Vec<f32>| {
-                let from = room / LANES * lanes.size + room % LANES;
-                (0..rows.width()).map(|feature| bounds[from + feature * LANES]).collect::<Vec<f32>>()
-            };
-            bounds.iter().flat_map(of).collect()
-        };
-        let rooms = 0..rooms.len();
-        rooms.zip(sums).map(|(room, sums)| (of_room(room), Distribution::from_weights(sums))).collect()
+        let columns = Columns::new(rows.width(), rooms.iter().map(|&room| rows.of(room)));
+        let mut bounds = BoundColumns::new(rows.width(), rooms.len());
+        let sums = self.sums(&columns, Some(&mut bounds));
+        sums.into_iter().enumerate().map(|(room, sums)| (bounds.of(room), Distribution::from_weights(sums))).collect()
     }
 }
 
-/// The results of so many parts, in order; worked out on all threads where that is worth starting them.
-fn in_parts<T: Send>(parts: usize, part: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let work = if parts < WORTH_THREADS { Work::quiet().on_threads(1) } else { Work::quiet() };
-    // Nobody cancels it.
-    work.map(parts, part).unwrap_or_default()
+/// Sorts rooms by whether their number is at most this one: those first, whose number is returned.
+fn tell_apart(column: &[f32], at_most: f32, rooms: &[u32], into: &mut [u32]) -> usize {
+    let (mut below, last) = (0, rooms.len() - 1);
+    for (place, &room) in rooms.iter().enumerate() {
+        // Written to both ends, of which one is written again: no branch, since half of all guesses would be wrong.
+        into[below] = room;
+        into[last - (place - below)] = room;
+        let is_above = column[room as usize] > at_most;
+        below += usize::from(!is_above);
+    }
+    below
 }
 
-/// Parts of [`TOGETHER`] rooms, of which each takes a tenth of a millisecond.
-const WORTH_THREADS: usize = 4;
+/// The results for ranges of so many rooms, in order; worked out on all threads where that is worth starting them.
+fn in_parts<T: Send>(rooms: usize, part: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+    let work = Work::quiet();
+    let threads = work.threads().min(rooms / WORTH_A_THREAD).max(1);
+    let parts = rooms.div_ceil(MOST_TOGETHER).next_multiple_of(threads);
+    let of_each = rooms.div_ceil(parts.max(1)).max(1);
+    let of_part = |part: usize| part * of_each..((part + 1) * of_each).min(rooms);
+    // Nobody cancels it.
+    work.on_threads(threads).map(rooms.div_ceil(of_each), |at| part(of_part(at))).unwrap_or_default()
+}
 
 #[cfg(test)]
 mod tests {
