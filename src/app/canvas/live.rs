@@ -14,7 +14,7 @@ use crate::app::session::live::changes;
 use crate::classify::Distribution;
 use crate::draw::{Fill, Palette, View, predicted_fill};
 use crate::features::RoomStatus;
-use crate::plan::Plan;
+use crate::plan::{Plan, RoomId};
 use crate::topology::RoomShapes;
 
 /// The most rooms that are marked at once: more tell nobody anything.
@@ -90,7 +90,11 @@ impl Canvas {
     }
 }
 
-/// Recolours the rooms whose predicted label has changed since the drawing below was made.
+/// A change of the sureness that is seen: by five percentage points.
+const SEEN: f64 = 0.05;
+
+/// Recolours the rooms whose predicted label is another than in the drawing below, or whose sureness has visibly changed. Returns
+/// these rooms, whose walls are painted over.
 pub(super) fn paint_new_labels(
     painter: &Painter,
     rect: Rect,
@@ -98,16 +102,20 @@ pub(super) fn paint_new_labels(
     drawn: &Labelled,
     now: &Labelled,
     palette: &Palette,
-) {
-    let Some((earlier, later)) = drawn.predictions.as_ref().zip(now.predictions.as_ref()) else { return };
+) -> Vec<RoomId> {
+    let Some((earlier, later)) = drawn.predictions.as_ref().zip(now.predictions.as_ref()) else { return Vec::new() };
+    let mut recoloured = Vec::new();
     let seen = view.bounds();
     for (room, said) in later.network.rooms.iter().zip(&later.result.distributions) {
         let (label, sure) = said.likeliest();
         let before = earlier.distribution(room.id).map(Distribution::likeliest);
+        let is_as_before = before.is_some_and(|(was, was_sure)| was == label && (was_sure - sure).abs() < SEEN);
         let shape = now.analysis.shapes.get(room.id).filter(|shape| shape.bounds.intersects(seen));
-        let Some(shape) = shape.filter(|_| before != Some((label, sure))) else { continue };
+        let Some(shape) = shape.filter(|_| !is_as_before) else { continue };
         let triangles = earcut(&shape.outer, &shape.holes);
         let fill = theme::colour(predicted_fill(palette, RoomStatus::Labelled(label), sure));
         painter.add(Shape::mesh(polygon_mesh(rect, view, &shape.outer, &shape.holes, &triangles, fill)));
+        recoloured.push(room.id);
     }
+    recoloured
 }

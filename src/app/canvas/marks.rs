@@ -9,7 +9,7 @@ use egui::{Color32, Painter, Rect, Shape, Stroke, Vec2, vec2};
 use super::live::paint_new_labels;
 use super::{Beginning, Canvas};
 use crate::app::look::theme;
-use crate::app::paint::pending::Pending;
+use crate::app::paint::pending::{Around, Pending};
 use crate::app::paint::places::on_screen;
 use crate::app::paint::preview::{Look, Preview};
 use crate::app::paint::scene_painter::{earcut, outline_mesh, polygon_mesh};
@@ -46,8 +46,11 @@ impl Canvas {
         if let Some(pending) = &self.pending {
             pending.paint(painter, rect, view, style, &session.schemes, labelled.is_some());
             if let Some(labelled) = labelled.filter(|_| style.fill == Fill::Prediction && !pending.is_all()) {
-                paint_new_labels(painter, rect, view, &drawn.labelled, labelled, style.palette());
+                let recoloured = paint_new_labels(painter, rect, view, &drawn.labelled, labelled, style.palette());
                 pending.paint_walls(painter, rect, view, style);
+                if !recoloured.is_empty() {
+                    Around::rooms(plan, &recoloured).paint(plan, painter, rect, view, style);
+                }
             }
         }
     }

@@ -10,11 +10,11 @@ use crate::app::paint::{
     places::on_screen,
     scene_painter::{earcut, outline_mesh, polygon_mesh},
 };
-use crate::draw::{Fill, Palette, Style, View};
+use crate::draw::{Fill, Style, View};
 use crate::features::RoomStatus;
 use crate::geometry::{Point, Segment};
 use crate::labels::Schemes;
-use crate::plan::{CornerId, Difference, ElementId, OpeningId, Place, Plan, RoomId, Wall};
+use crate::plan::{CornerId, Difference, ElementId, OpeningId, Place, Plan, Room, RoomId, Wall};
 
 /// With more changes than this, everything is veiled until analysed: painting them would take longer than
 /// a frame.
@@ -37,9 +37,63 @@ pub(crate) struct Pending {
     areas: Vec<Area>,
     /// Walls that were removed.
     gone: Vec<(Segment, f64)>,
-    /// Walls that changed, and those around changed rooms, which get painted over.
+    /// What changed, and what stands around changed rooms, which get painted over.
+    around: Around,
+}
+
+/// Walls, with their thickness in metres, and openings.
+#[derive(Default)]
+pub(crate) struct Around {
     walls: Vec<(Segment, f64)>,
     openings: Vec<OpeningId>,
+}
+
+impl Around {
+    /// What stands around some rooms of a plan.
+    pub(crate) fn rooms(plan: &Plan, rooms: &[RoomId]) -> Self {
+        let rings = rooms.iter().filter_map(|&id| plan.room(id)).flat_map(Room::rings);
+        Self::between(plan, &rings.flat_map(|ring| ring.iter().copied()).collect())
+    }
+
+    /// What stands between some corners of a plan.
+    fn between(plan: &Plan, corners: &BTreeSet<CornerId>) -> Self {
+        if corners.is_empty() {
+            return Self::default();
+        }
+        let is_between = |ends: [CornerId; 2]| ends.iter().all(|end| corners.contains(end));
+        let walls = plan.walls().filter(|(_, wall)| is_between([wall.from, wall.to]));
+        let openings = plan.openings().filter(|(_, opening)| match opening.place {
+            Place::Hosted { from, to, .. } => is_between([from, to]),
+            Place::Free { .. } => false,
+        });
+        Self {
+            walls: walls.filter_map(|(_, wall)| Some((plan.wall_segment(wall)?, wall.thickness_m))).collect(),
+            openings: openings.map(|(id, _)| id).collect(),
+        }
+    }
+
+    /// Paints them, over what fills the rooms.
+    pub(crate) fn paint(&self, plan: &Plan, painter: &Painter, rect: Rect, view: &View, style: &Style) {
+        let palette = style.palette();
+        let seen = view.bounds().inflated(1.0);
+        let band = |segment: &Segment, width_px: f64, colour: Color32| {
+            if seen.meets(*segment) {
+                let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));
+                painter.line_segment(ends, Stroke::new(width_px as f32, colour));
+            }
+        };
+        for (segment, thickness_m) in &self.walls {
+            band(segment, (thickness_m * view.px_per_m).max(THINNEST_WALL_PX), theme::colour(palette.wall));
+        }
+        // A gap with a line for the door or window in it.
+        let gap_px = (crate::plan::DEFAULT_WALL_THICKNESS_M * view.px_per_m).max(THINNEST_WALL_PX) + 2.0;
+        for id in &self.openings {
+            let segment = plan.opening(*id).and_then(|opening| plan.opening_segment(opening));
+            let Some(segment) = segment else { continue };
+            band(&segment, gap_px, theme::colour(palette.paper));
+            band(&segment, 1.0, theme::colour(palette.leaf));
+        }
+    }
 }
 
 impl Pending {
@@ -51,8 +105,7 @@ impl Pending {
             is_all: true,
             areas: Vec::new(),
             gone: Vec::new(),
-            walls: Vec::new(),
-            openings: Vec::new(),
+            around: Around::default(),
         };
         let changed = Difference::between(earlier, plan).seen(earlier, plan);
         if earlier.meta() != plan.meta() || changed.len() > MOST_CHANGES {
@@ -83,24 +136,18 @@ impl Pending {
             }
         }
         // What gets painted over is painted again.
-        if !around.is_empty() {
-            let walls = plan.walls().filter(|(_, wall)| around.contains(&wall.from) && around.contains(&wall.to));
-            pending.walls.extend(walls.filter_map(|(_, wall)| Some((plan.wall_segment(wall)?, wall.thickness_m))));
-        }
-        let is_around = |place: &Place| match place {
-            Place::Hosted { from, to, .. } => around.contains(from) && around.contains(to),
-            Place::Free { .. } => false,
-        };
-        let openings = plan
-            .openings()
-            .filter(|(id, opening)| changed.contains_key(&ElementId::Opening(*id)) || is_around(&opening.place));
-        pending.openings.extend(openings.map(|(id, _)| id));
+        pending.around = Around::between(plan, &around);
+        let openings = changed.keys().filter_map(|&element| match element {
+            ElementId::Opening(id) if plan.opening(id).is_some() => Some(id),
+            _ => None,
+        });
+        pending.around.openings.extend(openings);
         // Removed openings leave a closed wall.
         let closed = changed.keys().filter_map(|&element| match element {
             ElementId::Opening(id) if plan.opening(id).is_none() => earlier.opening_segment(earlier.opening(id)?),
             _ => None,
         });
-        pending.walls.extend(closed.map(|segment| (segment, crate::plan::DEFAULT_WALL_THICKNESS_M)));
+        pending.around.walls.extend(closed.map(|segment| (segment, crate::plan::DEFAULT_WALL_THICKNESS_M)));
         // First what was removed, then what is there.
         pending.areas.sort_by_key(|(_, _, now)| now.is_some());
         pending
@@ -152,32 +199,14 @@ impl Pending {
 
     /// Paints walls and openings, over what fills the rooms.
     pub(crate) fn paint_walls(&self, painter: &Painter, rect: Rect, view: &View, style: &Style) {
-        let palette = style.palette();
+        let paper = theme::colour(style.palette().paper);
         let seen = view.bounds().inflated(1.0);
-        let band = |segment: &Segment, width_px: f64, colour: Color32| {
-            if seen.meets(*segment) {
-                let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));
-                painter.line_segment(ends, Stroke::new(width_px as f32, colour));
-            }
-        };
-        for (segment, thickness_m) in &self.gone {
+        for (segment, thickness_m) in self.gone.iter().filter(|(segment, _)| seen.meets(*segment)) {
             // One pixel more on both sides, to cover the soft edges.
-            band(segment, (thickness_m * view.px_per_m).max(THINNEST_WALL_PX) + 2.0, theme::colour(palette.paper));
+            let width_px = (thickness_m * view.px_per_m).max(THINNEST_WALL_PX) + 2.0;
+            let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));
+            painter.line_segment(ends, Stroke::new(width_px as f32, paper));
         }
-        for (segment, thickness_m) in &self.walls {
-            band(segment, (thickness_m * view.px_per_m).max(THINNEST_WALL_PX), theme::colour(palette.wall));
-        }
-        for id in &self.openings {
-            let segment = self.plan.opening(*id).and_then(|opening| self.plan.opening_segment(opening));
-            let Some(segment) = segment else { continue };
-            self.paint_opening(&segment, palette, &band, view);
-        }
-    }
-
-    /// A gap with a line for the door or window in it.
-    fn paint_opening(&self, segment: &Segment, palette: &Palette, band: &dyn Fn(&Segment, f64, Color32), view: &View) {
-        let width_px = (crate::plan::DEFAULT_WALL_THICKNESS_M * view.px_per_m).max(THINNEST_WALL_PX) + 2.0;
-        band(segment, width_px, theme::colour(palette.paper));
-        band(segment, 1.0, theme::colour(palette.leaf));
+        self.around.paint(&self.plan, painter, rect, view, style);
     }
 }

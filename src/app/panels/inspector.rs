@@ -28,7 +28,7 @@ use crate::app::session::kept::InCommon;
 use crate::app::state::{App, Height, Side, SidePanel, panels};
 use crate::base::{
     units::Units,
-    wording::{count, sentence},
+    wording::{count, sentence, thousands},
 };
 use crate::draw::Palette;
 use crate::features::{Features, RoomAnalysis, RoomStatus};
@@ -302,20 +302,21 @@ impl Inspected<'_> {
         hairline(ui);
         section(ui, "Contents");
         let contents = self.app.session.contents();
-        value(ui, "Rooms", &self.plan.rooms().len().to_string());
-        value(ui, "Openings", &contents.passable.to_string());
-        value(ui, "Windows", &contents.windows.to_string());
-        if let Some(derived) = self.document.derived() {
-            let areas = self.app.session.areas(derived);
-            value(ui, "Clear area", &self.app.units().area(areas.clear_m2)).on_hover_text(CLEAR);
-            value(ui, "Along axes", &self.app.units().area(areas.along_m2)).on_hover_text(ALONG);
-            self.gaps(ui, derived);
-        }
-        if let Some(predictions) = self.document.derived().and_then(|derived| derived.predictions.as_ref())
-            && !predictions.network.rooms.is_empty()
-        {
-            hairline(ui);
-            act = act.or(prediction::of_plan(ui, self.app, predictions).map(Act::of));
+        value(ui, "Rooms", &thousands(self.plan.rooms().len() as u64));
+        value(ui, "Openings", &thousands(contents.passable as u64));
+        value(ui, "Windows", &thousands(contents.windows as u64));
+        if let Some((derived, is_fresh)) = self.document.derived_or_last() {
+            // While the plan is analysed after an edit, what was known stays where it is, faint.
+            let of_derived = |ui: &mut Ui| {
+                let areas = self.app.session.areas(derived);
+                value(ui, "Clear area", &self.app.units().area(areas.clear_m2)).on_hover_text(CLEAR);
+                value(ui, "Along axes", &self.app.units().area(areas.along_m2)).on_hover_text(ALONG);
+                self.gaps(ui, derived);
+                let predictions = derived.predictions.as_ref().filter(|it| !it.network.rooms.is_empty())?;
+                hairline(ui);
+                prediction::of_plan(ui, self.app, predictions).map(Act::of)
+            };
+            act = act.or(ui.add_enabled_ui(is_fresh, of_derived).inner);
         }
         if !self.document.notes.is_empty() {
             hairline(ui);

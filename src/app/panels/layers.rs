@@ -9,6 +9,7 @@ use crate::app::look::{
 };
 use crate::app::session::document::Document;
 use crate::app::state::{App, Height, Side, SidePanel, panels};
+use crate::base::wording::{sentence, thousands};
 use crate::draw::{self, Fill};
 use crate::features::RoomStatus;
 use crate::labels::Label;
@@ -80,7 +81,8 @@ fn show(app: &mut App, ui: &mut Ui) {
 
 /// The legend: each colour's meaning, and the number of rooms.
 fn legend(ui: &mut Ui, app: &App, document: &Document) {
-    let Some(derived) = document.derived() else { return };
+    // While the plan is analysed after an edit, the rows stay where they are, without numbers.
+    let Some((derived, is_fresh)) = document.derived_or_last() else { return };
     let (fill, palette) = (app.session.layers.fill, app.session.palette(ui));
     // Colour, name, number, and what the name means.
     let mut rows: Vec<(draw::Rgba, String, usize, String)> = Vec::new();
@@ -92,7 +94,7 @@ fn legend(ui: &mut Ui, app: &App, document: &Document) {
             let (labelled, unlabelled, not_classified) =
                 if is_predicted { derived.drawing.predicted_counts() } else { derived.drawing.counts() };
             for label in Label::ALL {
-                let name = crate::base::wording::sentence(label.name());
+                let name = sentence(label.name());
                 let about = app.session.schemes.about(label, document.plan().meta().typology.as_ref(), app.units());
                 rows.push((palette.label(label), name, labelled[label.index()], about));
             }
@@ -107,13 +109,13 @@ fn legend(ui: &mut Ui, app: &App, document: &Document) {
             for (status, name, number, about) in others.into_iter().filter(|(_, _, number, _)| *number > 0) {
                 rows.push((palette.status(status), name.to_owned(), number, about.to_owned()));
             }
-            note = (is_predicted && derived.drawing.missed() > 0)
+            note = (is_predicted && is_fresh && derived.drawing.missed() > 0)
                 .then(|| format!("{} with another known label, hatched in its colour", derived.drawing.missed()));
         }
         Fill::Function => {
             let number = |function: &str| derived.functions.get(function).copied().unwrap_or_default();
             for (function, colour) in derived.drawing.function_colours(palette) {
-                rows.push((colour, crate::base::wording::sentence(&function), number(&function), String::new()));
+                rows.push((colour, sentence(&function), number(&function), String::new()));
             }
             if number("") > 0 {
                 rows.push((palette.unlabelled, "No function".to_owned(), number(""), String::new()));
@@ -129,7 +131,11 @@ fn legend(ui: &mut Ui, app: &App, document: &Document) {
     let area = ScrollArea::vertical().id_salt("legend").min_scrolled_height(height).max_height(height);
     area.auto_shrink([false, true]).show(ui, |ui| {
         for (colour, name, number, about) in &rows {
-            let trail = if *number == 0 { "–".to_owned() } else { number.to_string() };
+            let trail = match number {
+                _ if !is_fresh => "…".to_owned(),
+                0 => "–".to_owned(),
+                number => thousands(*number as u64),
+            };
             let row = Row::new(Lead::Swatch(theme::colour(*colour)), name).trail(&trail).indent(8.0).inset(8.0);
             let response = row.show_only(ui);
             if !about.is_empty() {

@@ -83,7 +83,7 @@ pub(super) fn of_plan(ui: &mut Ui, app: &App, predictions: &Predictions) -> Opti
     if commands::find("accept-all-predictions").is_some_and(|command| command.why_not(app).is_none()) {
         let unknown = predictions.network.rooms.iter().filter(|room| room.label.is_none()).count();
         let rooms = if unknown == 1 { "room has" } else { "rooms have" };
-        caption(ui, format!("{unknown} {rooms} no label."));
+        caption(ui, format!("{} {rooms} no label.", thousands(unknown as u64)));
         if text_button(ui, "Accept all predictions", false).clicked() {
             asked = Some(("accept-all-predictions", None));
         }

@@ -259,6 +259,12 @@ impl Document {
         self.derived.as_ref()
     }
 
+    /// The analysis of the current plan, or of an earlier one while it is in progress; and whether it is the current one.
+    pub(crate) fn derived_or_last(&self) -> Option<(&Arc<Derived>, bool)> {
+        let is_fresh = self.derived().is_some();
+        self.derived.as_ref().map(|(_, derived)| (derived, is_fresh))
+    }
+
     /// Whether the current plan is neither analysed nor being analysed, and can be.
     pub(crate) fn needs_deriving(&self) -> bool {
         let is_awaited = self

@@ -43,8 +43,12 @@ impl Inspected<'_> {
         }
         act = act.or(self.label(ui, room, status));
         hairline(ui);
-        if let Some(derived) = derived {
-            act = act.or(self.predicted(ui, id, status, derived, evidence));
+        let is_known = |derived: &Derived| derived.predictions.as_ref().is_some_and(|of| of.distribution(id).is_some());
+        let said = self.document.derived_or_last().filter(|(derived, is_fresh)| *is_fresh || is_known(derived));
+        if let Some((derived, is_fresh)) = said {
+            // While the plan is analysed after an edit, what was said stays where it is, faint.
+            let of_derived = |ui: &mut Ui| self.predicted(ui, id, status, derived, evidence);
+            act = act.or(ui.add_enabled_ui(is_fresh, of_derived).inner);
             hairline(ui);
         }
         section(ui, "Features");
