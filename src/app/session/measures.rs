@@ -92,12 +92,17 @@ pub(crate) struct Measured {
 pub(crate) struct Measures {
     pub of_sets: BTreeMap<String, Vec<Measured>>,
     pub error: Option<String>,
-    job: Option<Wanted>,
+    job: Option<(Algorithm, Wanted)>,
 }
 
 impl Measures {
     pub(crate) fn is_measuring(&self) -> bool {
         self.job.is_some()
+    }
+
+    /// What is being measured.
+    pub(crate) fn measuring(&self) -> Option<Algorithm> {
+        self.job.as_ref().map(|(algorithm, _)| *algorithm)
     }
 
     /// The rooms are others now.
@@ -176,12 +181,12 @@ impl Session {
                 }
             }
         });
-        self.measures.job = Some(job);
+        self.measures.job = Some((algorithm, job));
     }
 
-    /// How far measuring is.
-    pub(crate) fn measure_progress(&self) -> Option<(usize, usize)> {
-        self.jobs.progress().into_iter().find(|(name, _)| *name == JOB)?.1
+    /// The share of measuring that is done, 0..=1.
+    pub(crate) fn measure_progress(&self) -> f64 {
+        self.jobs.share_of(JOB)
     }
 
     /// Writes a chart as the file's ending says: PNG, SVG, or its data as CSV.
@@ -230,6 +235,9 @@ impl Session {
     }
 }
 
+/// The part of the progress until every building was left out once; the rest is the learning curve.
+pub(crate) const TESTING_SHARE: f64 = 0.5;
+
 /// Folds of the measurement.
 const FOLDS: usize = 10;
 
@@ -239,12 +247,14 @@ fn measured(at_hand: &AtHand, set: &str, algorithm: Algorithm, work: &Work<'_>) 
     let neighbours = if modes.contains(&NeighbourLabels::Temporary) { NeighbourLabels::Temporary } else { modes[0] };
     let options = Options { folds: FOLDS, grouping: Grouping::Building, neighbours, ..Options::default() };
     let condition = Condition { by: Grouping::Building, neighbours };
-    let (cells, notes, said) = validate(&at_hand.collection, options, set, &[algorithm], &[condition], work)?;
+    let test = |work: &Work<'_>| validate(&at_hand.collection, options, set, &[algorithm], &[condition], work);
+    let (cells, notes, said) = work.within(0.0..TESTING_SHARE, test)?;
     let Some(cell) = cells.into_iter().next() else {
         let why = notes.into_iter().next().unwrap_or_else(|| "there are too few buildings".to_owned());
         return Err(StudyError::Data(why));
     };
-    let curve = learning_curve(&at_hand.collection, options, set, algorithm, work)?;
+    let learn = |work: &Work<'_>| learning_curve(&at_hand.collection, options, set, algorithm, work);
+    let curve = work.within(TESTING_SHARE..1.0, learn)?;
     let point = |point: &crate::study::CurvePoint| [point.training_rooms, point.accuracy, point.deviation];
     let curve = curve.map(|curve| curve.points.iter().map(point).collect()).unwrap_or_default();
     let mut buildings: BTreeMap<String, (usize, usize)> = BTreeMap::new();
