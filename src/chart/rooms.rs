@@ -274,7 +274,8 @@ mod tests {
     fn nothing_makes_empty_charts() {
         assert!(histogram("nothing", &[], 0).is_empty());
         assert!(scatter("nothing", &[], 0, 2).is_empty());
-        assert!(by_building(&[]).is_empty() && learning_curves(&[]).is_empty() && folds(&[]).is_empty());
+        assert!(by_building(&[]).is_empty() && learning_curves(&[]).is_empty());
+        assert!(folds(&[], "school plans", 10).is_empty() && rounds(&[]).is_empty());
     }
 
     #[test]

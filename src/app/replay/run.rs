@@ -237,7 +237,8 @@ fn run(
     }
     if let Some(name) = stage.window.job_to_stop().filter(|_| report.failures.is_empty()) {
         let what = format!("the job {} was to stop and did not start", super::words::in_quotes(name));
-        report.failures.push(whole(what, "take stop-job out, or do what starts the job"));
+        let names: Vec<String> = stage.window.job_names().into_iter().map(super::words::in_quotes).collect();
+        report.failures.push(whole(what, &format!("these have started: {}", names.join(", "))));
     }
     report.snapshots = stage.snapshots;
     report.updated = std::mem::take(&mut stage.updated);

@@ -403,3 +403,37 @@ fn medians(rows: &[Values]) -> Values {
         lower_median(&mut values).unwrap_or_default()
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+    use std::sync::atomic::AtomicBool;
+
+    use super::*;
+    use crate::dataset::Row;
+    use crate::features::Features;
+
+    #[test]
+    fn who_hears_of_the_rounds_changes_nothing() {
+        let rows: Vec<Row> = (0..120u32)
+            .map(|it| {
+                let label = if it % 3 == 0 { Label::Corridor } else { Label::SmallRoom };
+                let area_m2 = f64::from(it % 17 + 3);
+                Row::new(
+                    label,
+                    Features { area_m2, axes_ratio: 1.0 + f64::from(it % 3), doors: it % 5, doors_to: [0; 5] },
+                )
+            })
+            .collect();
+        let table = Table::from_rows(&rows).unwrap();
+        let quiet = Perceptron::train(&table, 7, &Work::quiet()).unwrap();
+        let (heard, cancelled) = (Mutex::new(Vec::new()), AtomicBool::new(false));
+        let hear = |round: Round| heard.lock().unwrap().push(round);
+        let work = Work::quiet().watched(&|_, _| {}, &cancelled).hearing(&hear);
+        let watched = Perceptron::train(&table, 7, &work).unwrap();
+        assert_eq!((watched.model, watched.temperature), (quiet.model, quiet.temperature));
+        let rounds = heard.into_inner().unwrap();
+        assert!(rounds.iter().enumerate().all(|(at, it)| it.round == at && it.held_out_loss.is_some()), "{rounds:?}");
+        assert!(rounds.len() >= *ROUNDS.start() && rounds[rounds.len() - 1].loss < 0.5 * rounds[0].loss, "{rounds:?}");
+    }
+}
