@@ -14,7 +14,7 @@ use crate::app::session::live::changes;
 use crate::classify::Distribution;
 use crate::draw::{Fill, Palette, View, predicted_fill};
 use crate::features::RoomStatus;
-use crate::plan::Plan;
+use crate::plan::{Plan, RoomId};
 use crate::topology::RoomShapes;
 
 /// The most rooms that are marked at once: more tell nobody anything.
@@ -90,24 +90,31 @@ impl Canvas {
     }
 }
 
-/// Recolours the rooms whose predicted label has changed since the drawing below was made.
+/// Recolours the rooms whose fill has changed since the drawing below was made, and those whose fill was painted over.
+/// Returns these rooms: their halves of the walls around them are covered.
 pub(super) fn paint_new_labels(
     painter: &Painter,
     rect: Rect,
     view: &View,
     drawn: &Labelled,
     now: &Labelled,
+    is_covered: &dyn Fn(RoomId) -> bool,
     palette: &Palette,
-) {
-    let Some((earlier, later)) = drawn.predictions.as_ref().zip(now.predictions.as_ref()) else { return };
+) -> Vec<RoomId> {
+    let mut painted = Vec::new();
+    let Some((earlier, later)) = drawn.predictions.as_ref().zip(now.predictions.as_ref()) else { return painted };
+    let fill = |said: &Distribution| {
+        let (label, sure) = said.likeliest();
+        theme::colour(predicted_fill(palette, RoomStatus::Labelled(label), sure))
+    };
     let seen = view.bounds();
     for (room, said) in later.network.rooms.iter().zip(&later.result.distributions) {
-        let (label, sure) = said.likeliest();
-        let before = earlier.distribution(room.id).map(Distribution::likeliest);
+        let before = earlier.distribution(room.id).map(&fill);
         let shape = now.analysis.shapes.get(room.id).filter(|shape| shape.bounds.intersects(seen));
-        let Some(shape) = shape.filter(|_| before != Some((label, sure))) else { continue };
+        let Some(shape) = shape.filter(|_| before != Some(fill(said)) || is_covered(room.id)) else { continue };
         let triangles = earcut(&shape.outer, &shape.holes);
-        let fill = theme::colour(predicted_fill(palette, RoomStatus::Labelled(label), sure));
-        painter.add(Shape::mesh(polygon_mesh(rect, view, &shape.outer, &shape.holes, &triangles, fill)));
+        painter.add(Shape::mesh(polygon_mesh(rect, view, &shape.outer, &shape.holes, &triangles, fill(said))));
+        painted.push(room.id);
     }
+    painted
 }

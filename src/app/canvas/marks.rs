@@ -46,7 +46,10 @@ impl Canvas {
         if let Some(pending) = &self.pending {
             pending.paint(painter, rect, view, style, &session.schemes, labelled.is_some());
             if let Some(labelled) = labelled.filter(|_| style.fill == Fill::Prediction && !pending.is_all()) {
-                paint_new_labels(painter, rect, view, &drawn.labelled, labelled, style.palette());
+                let is_covered = |room| pending.covers(room);
+                let palette = style.palette();
+                let painted = paint_new_labels(painter, rect, view, &drawn.labelled, labelled, &is_covered, palette);
+                pending.paint_walls_around(painter, rect, view, style, &painted);
                 pending.paint_walls(painter, rect, view, style);
             }
         }

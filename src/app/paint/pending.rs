@@ -40,6 +40,8 @@ pub(crate) struct Pending {
     /// Walls that changed, and those around changed rooms, which get painted over.
     walls: Vec<(Segment, f64)>,
     openings: Vec<OpeningId>,
+    /// The rooms that are there now, of the areas.
+    rooms: BTreeSet<RoomId>,
 }
 
 impl Pending {
@@ -53,6 +55,7 @@ impl Pending {
             gone: Vec::new(),
             walls: Vec::new(),
             openings: Vec::new(),
+            rooms: BTreeSet::new(),
         };
         let changed = Difference::between(earlier, plan).seen(earlier, plan);
         if earlier.meta() != plan.meta() || changed.len() > MOST_CHANGES {
@@ -103,12 +106,18 @@ impl Pending {
         pending.walls.extend(closed.map(|segment| (segment, crate::plan::DEFAULT_WALL_THICKNESS_M)));
         // First what was removed, then what is there.
         pending.areas.sort_by_key(|(_, _, now)| now.is_some());
+        pending.rooms = pending.areas.iter().filter_map(|(_, _, now)| *now).collect();
         pending
     }
 
     /// Whether this is the difference between these plans.
     pub(crate) fn is_between(&self, earlier: &Plan, plan: &Plan) -> bool {
         self.earlier.is_same_value(earlier) && self.plan.is_same_value(plan)
+    }
+
+    /// Whether the fill of a room is painted over.
+    pub(crate) fn covers(&self, room: RoomId) -> bool {
+        self.rooms.contains(&room)
     }
 
     /// Whether it affects everything.
@@ -152,23 +161,57 @@ impl Pending {
 
     /// Paints walls and openings, over what fills the rooms.
     pub(crate) fn paint_walls(&self, painter: &Painter, rect: Rect, view: &View, style: &Style) {
-        let palette = style.palette();
-        let seen = view.bounds().inflated(1.0);
-        let band = |segment: &Segment, width_px: f64, colour: Color32| {
-            if seen.meets(*segment) {
-                let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));
-                painter.line_segment(ends, Stroke::new(width_px as f32, colour));
-            }
-        };
+        let paper = theme::colour(style.palette().paper);
         for (segment, thickness_m) in &self.gone {
             // One pixel more on both sides, to cover the soft edges.
-            band(segment, (thickness_m * view.px_per_m).max(THINNEST_WALL_PX) + 2.0, theme::colour(palette.paper));
+            let width_px = (thickness_m * view.px_per_m).max(THINNEST_WALL_PX) + 2.0;
+            band(painter, rect, view, segment, width_px, paper);
         }
-        for (segment, thickness_m) in &self.walls {
-            band(segment, (thickness_m * view.px_per_m).max(THINNEST_WALL_PX), theme::colour(palette.wall));
+        self.paint_these(painter, rect, view, style, self.walls.iter().copied(), self.openings.iter().copied());
+    }
+
+    /// Paints the walls and openings around rooms that were painted over.
+    pub(crate) fn paint_walls_around(
+        &self,
+        painter: &Painter,
+        rect: Rect,
+        view: &View,
+        style: &Style,
+        rooms: &[RoomId],
+    ) {
+        if rooms.is_empty() {
+            return;
         }
-        for id in &self.openings {
-            let segment = self.plan.opening(*id).and_then(|opening| self.plan.opening_segment(opening));
+        let rings = rooms.iter().filter_map(|id| self.plan.room(*id)).flat_map(|room| room.rings());
+        let around: BTreeSet<CornerId> = rings.flat_map(|ring| ring.iter().copied()).collect();
+        let walls = self.plan.walls().filter(|(_, wall)| around.contains(&wall.from) && around.contains(&wall.to));
+        let walls = walls.filter_map(|(_, wall)| Some((self.plan.wall_segment(wall)?, wall.thickness_m)));
+        let is_around = |place: &Place| match place {
+            Place::Hosted { from, to, .. } => around.contains(from) && around.contains(to),
+            Place::Free { .. } => false,
+        };
+        let openings = self.plan.openings().filter(|(_, opening)| is_around(&opening.place)).map(|(id, _)| id);
+        self.paint_these(painter, rect, view, style, walls, openings);
+    }
+
+    fn paint_these(
+        &self,
+        painter: &Painter,
+        rect: Rect,
+        view: &View,
+        style: &Style,
+        walls: impl Iterator<Item = (Segment, f64)>,
+        openings: impl Iterator<Item = OpeningId>,
+    ) {
+        let palette = style.palette();
+        let band = |segment: &Segment, width_px: f64, colour: Color32| {
+            band(painter, rect, view, segment, width_px, colour);
+        };
+        for (segment, thickness_m) in walls {
+            band(&segment, (thickness_m * view.px_per_m).max(THINNEST_WALL_PX), theme::colour(palette.wall));
+        }
+        for id in openings {
+            let segment = self.plan.opening(id).and_then(|opening| self.plan.opening_segment(opening));
             let Some(segment) = segment else { continue };
             self.paint_opening(&segment, palette, &band, view);
         }
@@ -179,5 +222,13 @@ impl Pending {
         let width_px = (crate::plan::DEFAULT_WALL_THICKNESS_M * view.px_per_m).max(THINNEST_WALL_PX) + 2.0;
         band(segment, width_px, theme::colour(palette.paper));
         band(segment, 1.0, theme::colour(palette.leaf));
+    }
+}
+
+/// A line as wide as a wall, if it is in view.
+fn band(painter: &Painter, rect: Rect, view: &View, segment: &Segment, width_px: f64, colour: Color32) {
+    if view.bounds().inflated(1.0).meets(*segment) {
+        let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));
+        painter.line_segment(ends, Stroke::new(width_px as f32, colour));
     }
 }
