@@ -313,7 +313,7 @@ impl Dashboard {
         if let Some(error) = &app.session.measures.error {
             ui.label(egui::RichText::new(sentence(&format!("{error}."))).color(colours(ui).error));
         }
-        let Some(measured) = app.session.measures.of_sets.get(&self.set).filter(|of| !of.is_empty()) else {
+        if !app.session.has_measured(&self.set) {
             let title = if app.session.measures.is_measuring() { "Measuring" } else { "Nothing measured yet" };
             note(
                 ui,
@@ -322,10 +322,13 @@ impl Dashboard {
                  labels of these. Nothing is kept; to make a model, choose Train models.",
             );
             return act;
-        };
+        }
+        let measured = app.session.measures.of_sets.get(&self.set).map(Vec::as_slice).unwrap_or_default();
         ScrollArea::vertical().id_salt("accuracy").auto_shrink(false).show(ui, |ui| {
-            caption(ui, told_of_measured(measured));
-            ui.add_space(2.0);
+            if !measured.is_empty() {
+                caption(ui, told_of_measured(measured));
+                ui.add_space(2.0);
+            }
             ui.columns(2, |columns| {
                 let below = self.chart(app, &mut columns[0], palette, at_hand, ChartKind::LearningCurve, 340.0);
                 act = act.take().or(below);
