@@ -218,6 +218,8 @@ impl Chart {
                     let mut items = Vec::new();
                     for point in points.iter().filter(|point| point.deviation > 0.0) {
                         let ends = [point.up - point.deviation, point.up + point.deviation];
+                        // No share is above all, whatever its deviation.
+                        let ends = ends.map(|up| up.clamp(layout.up.from, layout.up.to));
                         items.push(line(
                             ends.map(|up| layout.at(point.across, up)).to_vec(),
                             colour.with_alpha(0x90),

@@ -170,7 +170,10 @@ impl Session {
                     (name, curve)
                 });
                 let measured = measured.map(Vec::as_slice).unwrap_or_default().iter().map(curve);
-                rooms::learning_curves(&measured.chain(so_far).collect::<Vec<_>>())
+                let mut chart = rooms::learning_curves(&measured.chain(so_far.clone()).collect::<Vec<_>>());
+                // Also of one alone it is said that it goes on.
+                chart.has_legend |= so_far.is_some();
+                chart
             }
             ChartKind::ByBuilding => rooms::by_building(&measured?.last()?.buildings),
         })
