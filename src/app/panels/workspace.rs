@@ -260,11 +260,14 @@ impl Table {
     /// What is selected, and what can be done with it.
     fn foot(&mut self, app: &mut App, ui: &mut Ui) -> Option<Act> {
         let mut act = None;
+        let is_writing = app.session.changing_shown().is_some();
         let workspace = app.session.workspace.as_mut()?;
+        let is_listing = workspace.now.files().is_empty() && workspace.indexing.is_some();
+        let is_looking = is_listing || workspace.view.is_behind(workspace.revision);
         let thing = if workspace.view.shows == Shows::Rooms { "room" } else { "plan" };
         ui.horizontal(|ui| {
             let (length, selected) = (workspace.view.len(), &workspace.view.selected);
-            let said = if workspace.now.files().is_empty() {
+            let said = if length == 0 && is_looking {
                 String::new()
             } else if selected.is_empty() {
                 format!("{} shown", counted(length, thing))
@@ -283,7 +286,8 @@ impl Table {
                 if let Some(changed) = &workspace.changed {
                     let files = count(changed.files.len(), "file");
                     let help = format!("Put {files} back as before, where nobody has changed them since");
-                    if text_button(ui, "Undo change", false).on_hover_text(help).clicked() {
+                    let undo = ui.add_enabled_ui(!is_writing, |ui| text_button(ui, "Undo change", false)).inner;
+                    if undo.on_hover_text(help).clicked() {
                         act = Some(Act::Run("undo-workspace-change"));
                     }
                 }
@@ -309,7 +313,7 @@ fn heading(app: &mut App, ui: &mut Ui, totals: &Totals) -> Option<Act> {
     let folder = app.session.workspace.as_ref().map(|workspace| workspace.now.folder().to_owned())?;
     let shown = app.session.shown_path(&folder);
     let name = folder.file_name().map_or_else(|| shown.clone(), |name| name.to_string_lossy().into_owned());
-    let indexing = app.session.indexing_shown();
+    let indexing = app.session.changing_shown().or_else(|| app.session.indexing_shown());
     let OpenWorkspace { view, .. } = app.session.workspace.as_mut()?;
     ui.horizontal(|ui| {
         ui.label(strong(name, theme::TITLE)).on_hover_text(shown);
@@ -347,7 +351,7 @@ fn heading(app: &mut App, ui: &mut Ui, totals: &Totals) -> Option<Act> {
         });
     });
     ui.horizontal(|ui| {
-        caption(ui, said_of(totals, indexing.is_some()));
+        caption(ui, said_of(totals, app.session.indexing_shown().is_some()));
         if let Some((share, said)) = indexing {
             right(ui, |ui| {
                 if share > 0.0 {
