@@ -26,6 +26,11 @@ pub fn thousands(number: u64) -> String {
     text
 }
 
+/// A share in whole percent, as of something that goes on: '40 %', and 100 only at the end.
+pub fn percent_done(share: f64) -> String {
+    format!("{:.0} %", (100.0 * share).floor().clamp(0.0, 100.0))
+}
+
 /// The known words most similar to a misspelt one, closest first.
 pub fn similar<'a>(wrong: &str, words: impl Iterator<Item = &'a str>, most: usize) -> Vec<&'a str> {
     // Below this, two words have hardly more in common than any two.

@@ -1,6 +1,7 @@
 //! Work split into independent parts, run on any number of threads with the same result.
 
 use std::num::NonZeroUsize;
+use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -9,7 +10,19 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 pub struct Work<'a> {
     threads: usize,
     progress: &'a (dyn Fn(usize, usize) + Sync),
+    rounds: &'a (dyn Fn(Round) + Sync),
     cancelled: &'a AtomicBool,
+}
+
+/// A round over all examples of something that learns in rounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Round {
+    /// From 0; learning begins anew with 0.
+    pub round: usize,
+    /// The mean loss over the examples learned from, as they were met in this round.
+    pub loss: f64,
+    /// The mean loss over examples held out, after the round, if there are any.
+    pub held_out_loss: Option<f64>,
 }
 
 /// The work was cancelled; there is no result.
@@ -24,6 +37,9 @@ impl std::fmt::Display for Cancelled {
 
 impl std::error::Error for Cancelled {}
 
+/// What the progress of [`Work::within`] counts.
+const THOUSANDTHS: usize = 1000;
+
 /// The flag of [`Work::quiet`]: never set.
 static NEVER: AtomicBool = AtomicBool::new(false);
 
@@ -31,7 +47,7 @@ impl Work<'static> {
     /// Unwatched work, on as many threads as the machine has processors.
     pub fn quiet() -> Self {
         let threads = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-        Self { threads, progress: &|_, _| {}, cancelled: &NEVER }
+        Self { threads, progress: &|_, _| {}, rounds: &|_| {}, cancelled: &NEVER }
     }
 }
 
@@ -60,10 +76,37 @@ impl<'a> Work<'a> {
         Self { progress, ..self }
     }
 
+    /// With somebody who hears of the rounds of learning, from any thread: also of those in parts of the work.
+    #[must_use]
+    pub fn hearing(self, rounds: &'a (dyn Fn(Round) + Sync)) -> Self {
+        Self { rounds, ..self }
+    }
+
+    /// Tells of a round of learning. Whether somebody hears changes nothing of what is learned.
+    pub fn tell_round(&self, round: Round) {
+        (self.rounds)(round);
+    }
+
     /// For a part of other work: single-threaded, cancelled with the whole, without progress of its own.
     #[must_use]
     pub fn alone(self) -> Self {
         Self { threads: 1, progress: &|_, _| {}, ..self }
+    }
+
+    /// Says how far the work is: so many parts of their total are done.
+    pub fn tell(&self, done: usize, count: usize) {
+        (self.progress)(done, count);
+    }
+
+    /// A part of this work that takes it from one share to another, 0..=1: the progress of the part becomes that of the
+    /// whole, in thousandths, so that it never starts again.
+    pub fn within<T>(&self, shares: Range<f64>, part: impl FnOnce(&Work<'_>) -> T) -> T {
+        let progress = |done: usize, count: usize| {
+            let of_part = done as f64 / count.max(1) as f64;
+            let share = shares.start + (shares.end - shares.start) * of_part;
+            (self.progress)((share * THOUSANDTHS as f64).round() as usize, THOUSANDTHS);
+        };
+        part(&self.telling(&progress))
     }
 
     /// Checks for cancellation: call between steps, and now and then in long work that has no parts.
@@ -132,6 +175,19 @@ mod tests {
             assert_eq!(Work::quiet().on_threads(threads).map(100, square), Ok(expected.clone()));
         }
         assert_eq!(Work::quiet().map(0, square), Ok(Vec::new()));
+    }
+
+    #[test]
+    fn the_progress_of_parts_never_starts_again() {
+        let seen = Mutex::new(Vec::new());
+        let progress = |done: usize, count: usize| seen.lock().unwrap().push((done, count));
+        let work = Work::quiet().on_threads(1).watched(&progress, &NEVER);
+        let all = work.within(0.5..1.0, |work| {
+            work.within(0.0..0.5, |work| work.map(2, |i| i)).unwrap();
+            work.within(0.5..1.0, |work| work.map(1, |i| i))
+        });
+        assert_eq!(all, Ok(vec![0]));
+        assert_eq!(*seen.lock().unwrap(), [(625, 1000), (750, 1000), (1000, 1000)]);
     }
 
     #[test]

@@ -23,6 +23,9 @@ const WIDEST_NAME_PX: f64 = 190.0;
 /// With more dots, they are smaller.
 const MANY_DOTS: usize = 1200;
 
+/// A line through more points than this shows no dots.
+const MOST_DOTS: usize = 40;
+
 /// The golden ratio's fraction: its multiples spread evenly between 0 and 1.
 const SPREAD: f64 = 0.618_033_988_749_895;
 
@@ -215,6 +218,8 @@ impl Chart {
                     let mut items = Vec::new();
                     for point in points.iter().filter(|point| point.deviation > 0.0) {
                         let ends = [point.up - point.deviation, point.up + point.deviation];
+                        // No share is above all, whatever its deviation.
+                        let ends = ends.map(|up| up.clamp(layout.up.from, layout.up.to));
                         items.push(line(
                             ends.map(|up| layout.at(point.across, up)).to_vec(),
                             colour.with_alpha(0x90),
@@ -224,7 +229,9 @@ impl Chart {
                     if at.len() > 1 {
                         items.push(line(at.clone(), colour, 2.0));
                     }
-                    items.extend(at.into_iter().map(|centre| disc(centre, 3.0, colour, None)));
+                    // Dots that touch each other hide the line.
+                    let dots = if at.len() > MOST_DOTS { Vec::new() } else { at };
+                    items.extend(dots.into_iter().map(|centre| disc(centre, 3.0, colour, None)));
                     groups.push(group(items));
                 }
             }

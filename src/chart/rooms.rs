@@ -2,6 +2,7 @@
 
 use super::{Axis, Bar, Chart, Dot, Ink, Marks, Point, Scale, Series};
 use crate::base::wording::{count, sentence};
+use crate::base::work::Round;
 use crate::dataset::{Row, Statistics};
 use crate::features::Features;
 use crate::labels::Label;
@@ -205,19 +206,41 @@ pub fn by_building(buildings: &[(String, usize, usize)]) -> Chart {
 }
 
 /// The accuracy of each fold as it is tested, of several classifiers; and their means so far.
-pub fn folds(of: &[(String, Vec<f64>)]) -> Chart {
-    let most = of.iter().map(|(_, folds)| folds.len()).max().unwrap_or_default();
+pub fn folds(of: &[(String, Vec<f64>)], set: &str, count: usize) -> Chart {
+    let most = of.iter().map(|(_, folds)| folds.len()).max().unwrap_or_default().max(count);
     let series = of.iter().enumerate().map(|(number, (name, folds))| {
         let point = |(fold, &up): (usize, &f64)| Point { across: (fold + 1) as f64, up, deviation: 0.0 };
         let marks = Marks::Line(folds.iter().enumerate().map(point).collect());
         Series { name: name.clone(), ink: Ink::Number(number), marks }
     });
     Chart {
-        title: String::new(),
+        title: format!("Folds tested, {set}"),
         note: "Accuracy of each fold that was tested so far.".to_owned(),
-        across: Axis::new("Fold", Scale::Linear).from_to(0.5, most.max(2) as f64 + 0.5),
+        across: Axis::new("Fold", Scale::Whole).from_to(0.5, most.max(2) as f64 + 0.5),
         up: Axis::new("Accuracy", Scale::Share).from_to(0.0, 1.0),
         series: series.collect(),
+        has_legend: true,
+    }
+}
+
+/// How a net learns: its loss by round.
+pub fn rounds(of: &[Round]) -> Chart {
+    let line = |name: &str, number: usize, loss: &dyn Fn(&Round) -> Option<f64>| {
+        let point = |it: &Round| Some(Point { across: (it.round + 1) as f64, up: loss(it)?, deviation: 0.0 });
+        let points = of.iter().filter_map(point).collect();
+        Series { name: name.to_owned(), ink: Ink::Number(number), marks: Marks::Line(points) }
+    };
+    let (learned, held_out) = (line("Training", 0, &|it| Some(it.loss)), line("Held out", 1, &|it| it.held_out_loss));
+    let most = of.iter().map(|it| it.loss.max(it.held_out_loss.unwrap_or_default())).fold(0.1, f64::max);
+    Chart {
+        title: "Loss of the perceptron that learns".to_owned(),
+        note: "Loss over the rooms that the net learns from, and over those held out to see when to stop.".to_owned(),
+        across: Axis::new("Epoch", Scale::Whole),
+        up: Axis::new("Cross-entropy", Scale::Linear).from_to(0.0, most),
+        series: [learned, held_out]
+            .into_iter()
+            .filter(|it| !matches!(&it.marks, Marks::Line(of) if of.is_empty()))
+            .collect(),
         has_legend: true,
     }
 }
@@ -251,7 +274,8 @@ mod tests {
     fn nothing_makes_empty_charts() {
         assert!(histogram("nothing", &[], 0).is_empty());
         assert!(scatter("nothing", &[], 0, 2).is_empty());
-        assert!(by_building(&[]).is_empty() && learning_curves(&[]).is_empty() && folds(&[]).is_empty());
+        assert!(by_building(&[]).is_empty() && learning_curves(&[]).is_empty());
+        assert!(folds(&[], "school plans", 10).is_empty() && rounds(&[]).is_empty());
     }
 
     #[test]

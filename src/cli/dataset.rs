@@ -7,11 +7,12 @@ use serde_json::json;
 use super::collect::{FoldsFrom, fold_table, grouping, read_plans, report_left_out};
 use super::features::FeatureOptions;
 use super::manifest;
-use super::outputs::Outputs;
+use super::outputs::{Care, Outputs};
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::folds::Grouping;
-use crate::dataset::{Collection, Row, Statistics, csv, fold_table, schema};
-use crate::gather::dataset::told_of;
+use crate::dataset::{Collection, Row, Statistics, csv, edges, fold_table, schema};
+use crate::gather::dataset::{edges_table, told_of};
+use crate::gather::json_bytes;
 use crate::labels::Typology;
 
 /// `enfilade dataset`: the labelled rooms of many plans.
@@ -20,8 +21,8 @@ pub struct DatasetCommand {
     /// Folders of plans, or plans, of any known format
     #[arg(required = true, value_name = "DIR")]
     plans: Vec<PathBuf>,
-    /// Write the dataset here instead of to stdout, with a description of its columns (.schema.json) and of its
-    /// making (.manifest.json)
+    /// Write the dataset here instead of to stdout, with a table of the ways between the rooms (.edges.csv), and a
+    /// description of the columns (.schema.json) and of the making (.manifest.json)
     #[arg(short, long, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     /// Print the paper's Table 2 for these rooms: for each label its share, mean and deviation of a and d, and mean
@@ -60,7 +61,7 @@ impl Subcommand for DatasetCommand {
             FoldsFrom::Count(_) => None,
         };
         let mut read = read_plans(&self.plans, &schemes, false, self.keep_repeats, terminal)?;
-        let left_out = read.left_out();
+        let (left_out, ways) = (read.left_out(), read.edges());
         report_left_out(&left_out, terminal)?;
         let plans = Collection::Plans(std::mem::take(&mut read.networks));
         let mut rows = plans.rows(self.shared.neighbours).unwrap_or_default();
@@ -83,7 +84,12 @@ impl Subcommand for DatasetCommand {
                     FoldsFrom::File(file) => json!({ "file": file.display().to_string() }),
                 };
                 let table = manifest::of_table(path, &bytes, rows.len());
+                let edges_bytes = edges_table(&ways, guard)?;
+                outputs.save(&manifest::beside(path, "edges.csv"), &edges_bytes, Care::Flushed, terminal)?;
+                let edges_schema = json_bytes(&edges::schema());
+                outputs.save(&manifest::beside(path, "edges.schema.json"), &edges_schema, Care::Flushed, terminal)?;
                 let told = table.with("folds", folds).with("neighbours", json!(self.shared.neighbours.name()));
+                let told = told.with_edges(path, &edges_bytes, ways.len());
                 let told = told_of(told, &rows, &read, &left_out).with_schemes(&schemes, &self.shared.scheme);
                 manifest::save(told, path, Some(schema()), &mut outputs, terminal)?;
             }

@@ -3,6 +3,7 @@
 pub mod changes;
 mod collection;
 pub mod csv;
+pub mod edges;
 pub mod fingerprint;
 pub mod flats;
 pub mod fold_table;

@@ -2,28 +2,30 @@
 
 use super::{Export, Exporter, Format, Holds, Lost, NamedBytes, NamedPlan, Options, Refused};
 use crate::base::natural_order::NaturalKey;
+use crate::dataset::BY_SCHEME;
 use crate::dataset::csv::{Guard, cell};
 use crate::features::{NeighbourLabels, analyse};
 use crate::labels::{Label, Schemes};
 use crate::plan::titles::numbers_of_unnamed;
-use crate::plan::{Plan, Room, RoomId};
+use crate::plan::{LabelOrigin, Plan, Room, RoomId};
 
 /// The schedule of rooms.
 pub const FORMAT: Format = Format {
     id: "room-schedule",
     name: "Room schedule",
     endings: &["rooms.csv"],
-    about: "A table of the rooms with their clear area, the area along axes and the doors, for spreadsheets",
+    about: "A table of the rooms with their labels and who gave them, their clear area, the area along axes and the doors, for spreadsheets",
     importer: None,
     exporter: Some(&RoomSchedule),
 };
 
 /// The columns, in order. Areas in m², lengths in metres.
-const COLUMNS: [&str; 9] = [
+const COLUMNS: [&str; 10] = [
     "storey",
     "room",
     "function",
     "label",
+    "label_origin",
     "clear area [m²]",
     "clear perimeter [m]",
     "area along axes, a [m²]",
@@ -52,6 +54,11 @@ impl Exporter for RoomSchedule {
     }
 }
 
+/// Who gave a room its own label; a prediction that nobody accepted is none.
+fn origin_of(room: &Room) -> Option<LabelOrigin> {
+    room.label.map(|given| given.origin).filter(|origin| *origin != LabelOrigin::Prediction)
+}
+
 /// The rooms of a plan by name, those numbered in the order of their numbers.
 fn table(plan: &Plan, schemes: &Schemes) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
     let analysis = analyse(plan, schemes, NeighbourLabels::True);
@@ -60,7 +67,13 @@ fn table(plan: &Plan, schemes: &Schemes) -> Result<Vec<u8>, Box<dyn std::error::
     let row = |(id, key): (RoomId, String)| {
         let (room, analysed) = (plan.room(id)?, analysis.room(id)?);
         let label = analysed.status.label().map(Label::name).unwrap_or_default();
-        let texts = [&plan.meta().storey, &key, &room.function, label].map(|text| Guard::On.cell(text));
+        // As in a dataset.
+        let origin = match (analysed.status.label(), origin_of(room)) {
+            (None, _) => "",
+            (Some(_), Some(origin)) => origin.name(),
+            (Some(_), None) => BY_SCHEME,
+        };
+        let texts = [&plan.meta().storey, &key, &room.function, label, origin].map(|text| Guard::On.cell(text));
         let net = analysis.net(id);
         let number = |value: Option<f64>, decimals: f64| value.map(|value| cell((value * decimals).round() / decimals));
         let numbers = [

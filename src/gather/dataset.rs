@@ -6,6 +6,7 @@ use std::path::Path;
 use serde_json::json;
 
 use super::{Manifest, PlansRead, json_bytes};
+use crate::dataset::edges::{self, Edge};
 use crate::dataset::folds::{Grouping, building_of};
 use crate::dataset::{Collection, LeftOut, Row, csv, fold_table, schema};
 use crate::features::NeighbourLabels;
@@ -15,8 +16,11 @@ use crate::labels::{Label, Schemes, Typology};
 pub struct Made {
     /// The table.
     pub csv: Vec<u8>,
-    /// What its columns mean, and how it came about: JSON.
+    /// The ways between rooms: a table of its own.
+    pub edges: Vec<u8>,
+    /// What the columns of both mean, and how it came about: JSON.
     pub schema: Vec<u8>,
+    pub edges_schema: Vec<u8>,
     pub manifest: Vec<u8>,
     /// Its rows, and the buildings they are of.
     pub rooms: usize,
@@ -35,25 +39,40 @@ const SEED: u64 = 1;
 /// When the table cannot be written, which no text here causes.
 pub fn made(mut read: PlansRead, schemes: &Schemes, table: &Path, command: &str) -> Result<Made, String> {
     let left_out = read.left_out();
+    let edges = read.edges();
     let neighbours = NeighbourLabels::True;
     let plans = Collection::Plans(std::mem::take(&mut read.networks));
     let mut rows = plans.rows(neighbours).unwrap_or_default();
     fold_table::deal(&mut rows, Grouping::Building, FOLDS, SEED);
     let mut bytes = Vec::new();
     csv::write_guarded(&mut bytes, &rows, csv::Guard::Off).map_err(|error| error.to_string())?;
+    let edges_bytes = edges_table(&edges, csv::Guard::Off).map_err(|error| error.to_string())?;
     let folds = json!({ "count": FOLDS, "by": Grouping::Building.name(), "seed": SEED });
     let manifest = Manifest::of_table(table, command, &bytes, rows.len())
         .with("folds", folds)
-        .with("neighbours", json!(neighbours.name()));
+        .with("neighbours", json!(neighbours.name()))
+        .with_edges(table, &edges_bytes, edges.len());
     let manifest = told_of(manifest, &rows, &read, &left_out).with_schemes(schemes, &[]);
     Ok(Made {
         csv: bytes,
+        edges: edges_bytes,
         schema: json_bytes(&schema()),
+        edges_schema: json_bytes(&edges::schema()),
         manifest: manifest.bytes(),
         rooms: rows.len(),
         buildings: buildings(&rows),
         left_out,
     })
+}
+
+/// The table of edges.
+///
+/// # Errors
+/// When it cannot be written, which no text here causes.
+pub fn edges_table(edges: &[Edge], guard: csv::Guard) -> Result<Vec<u8>, ::csv::Error> {
+    let mut bytes = Vec::new();
+    edges::write(&mut bytes, edges, guard)?;
+    Ok(bytes)
 }
 
 /// How many buildings rows are of.

@@ -39,6 +39,14 @@ impl Manifest {
         self
     }
 
+    /// With the table of the ways between rooms, which stands beside the table of rooms.
+    #[must_use]
+    pub fn with_edges(self, table: &Path, bytes: &[u8], edges: usize) -> Self {
+        let path = beside(table, "edges.csv");
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        self.with("edges", json!({ "file": name, "sha256": sha256(bytes), "rows": edges }))
+    }
+
     /// With the files that were read, and what was read twice.
     #[must_use]
     pub fn with_plans(self, plans: &PlansRead) -> Self {

@@ -6,12 +6,16 @@ mod manifest;
 
 use std::collections::BTreeMap;
 
+use crate::base::natural_order::NaturalKey;
+use crate::dataset::edges::{self, Edge};
 use crate::dataset::repeats::{Repeats, Sighting};
 use crate::dataset::{LeftOut, RoomNetwork};
 use crate::formats::building_name;
 use crate::labels::{Schemes, Typology};
 use crate::pipeline::Pipeline;
 use crate::plan::Plan;
+use crate::plan::storeys::level_key;
+use crate::topology::vertical::Shafts;
 
 pub use crate::base::hash::sha256;
 pub use manifest::{Manifest, beside, json_bytes, program};
@@ -38,6 +42,8 @@ pub struct PlansRead {
     /// All that was read, before anything was left out.
     pub sightings: Vec<Sighting>,
     pub repeats: Repeats,
+    /// The stairs and lifts of each network's plan; none of a plan that names no building.
+    pub shafts: Vec<Shafts>,
     /// Number of files that could not be read.
     pub failed: usize,
 }
@@ -53,10 +59,35 @@ impl PlansRead {
     }
 }
 
+impl PlansRead {
+    /// The edges of all buildings' graphs: the openings between rooms, plan by plan, then stairs and lifts that lie over each
+    /// other in storeys of one building that follow each other.
+    pub fn edges(&self) -> Vec<Edge> {
+        let mut edges: Vec<Edge> = self.networks.iter().flat_map(edges::within).collect();
+        let mut buildings: BTreeMap<(Option<&Typology>, &str), Vec<usize>> = BTreeMap::new();
+        for (index, network) in self.networks.iter().enumerate() {
+            buildings.entry((network.typology.as_ref(), &network.building)).or_default().push(index);
+        }
+        for mut storeys in buildings.into_values() {
+            storeys.sort_by_cached_key(|&index| {
+                let RoomNetwork { storey, plan, .. } = &self.networks[index];
+                (level_key(storey), NaturalKey::of(storey), NaturalKey::of(plan), index)
+            });
+            for pair in storeys.windows(2) {
+                let [lower, upper] = [pair[0], pair[1]];
+                let links = self.shafts[lower].links_to(&self.shafts[upper]);
+                let edge = |link| edges::between(&self.networks[lower], &self.networks[upper], link);
+                edges.extend(links.iter().map(edge));
+            }
+        }
+        edges
+    }
+}
+
 /// What one file holds, ready to be put together with others.
 pub struct FileRead {
     source: Source,
-    plans: Vec<(RoomNetwork, Option<RoomNetwork>, Sighting)>,
+    plans: Vec<(RoomNetwork, Option<RoomNetwork>, Sighting, Shafts)>,
 }
 
 impl FileRead {
@@ -67,7 +98,8 @@ impl FileRead {
             let sighting = Sighting::of(plan, pipeline.analysis(), file, &sha256, storey);
             let network = RoomNetwork { file: file.to_owned(), ..pipeline.network().clone() };
             let blind = with_blind.then(|| RoomNetwork::without_typology(plan, schemes));
-            (network, blind, sighting)
+            let shafts = if plan.meta().building.is_empty() { Shafts::default() } else { Shafts::of(plan) };
+            (network, blind, sighting, shafts)
         };
         let of_plans = plans.iter().enumerate().map(each).collect();
         let rooms = plans.iter().map(|plan| plan.rooms().len()).sum();
@@ -86,8 +118,9 @@ impl PlansRead {
     /// Adds the plans of a file, in the order of the files.
     pub fn add(&mut self, file: FileRead) {
         self.sources.push(file.source);
-        for (network, blind, sighting) in file.plans {
+        for (network, blind, sighting, shafts) in file.plans {
             self.networks.push(network);
+            self.shafts.push(shafts);
             self.blind.extend(blind);
             self.sightings.push(sighting);
         }
@@ -155,10 +188,13 @@ fn leave_out_repeats(read: &mut PlansRead) {
     }
     let is_kept = |network: &RoomNetwork| network.rooms.is_empty() || network.rooms.iter().any(|room| !room.is_repeat);
     let kept: Vec<bool> = read.networks.iter().map(is_kept).collect();
-    let retain = |networks: &mut Vec<RoomNetwork>| {
-        let mut kept = kept.iter();
-        networks.retain(|_| kept.next() == Some(&true));
-    };
-    retain(&mut read.networks);
-    retain(&mut read.blind);
+    retain(&mut read.networks, &kept);
+    retain(&mut read.blind, &kept);
+    retain(&mut read.shafts, &kept);
+}
+
+/// Keeps what is marked.
+fn retain<T>(all: &mut Vec<T>, kept: &[bool]) {
+    let mut kept = kept.iter();
+    all.retain(|_| kept.next() == Some(&true));
 }

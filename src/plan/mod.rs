@@ -15,6 +15,7 @@ pub mod ignored;
 mod invariants;
 mod meta;
 mod positions;
+pub mod storeys;
 pub mod titles;
 
 use std::sync::Arc;

@@ -368,6 +368,12 @@ impl Results {
         Self(results)
     }
 
+    /// Adds the outcome of a task.
+    pub(super) fn add(&mut self, task: Task, outcome: Outcome) {
+        let at = self.0.partition_point(|(other, _)| *other < task);
+        self.0.insert(at, (task, outcome));
+    }
+
     /// The predictions of all folds: fold, row, distribution.
     fn folds(&self, condition: usize, set: usize, algorithm: Algorithm) -> Vec<(usize, usize, &Distribution)> {
         let from = Task::Fold { condition, set, algorithm, fold: 0 };

@@ -19,7 +19,10 @@ use std::fmt;
 use serde::{Serialize, Serializer};
 
 pub use comparison::Comparison;
-pub use run::{FoldTold, Validation, learning_curve, study, study_with_predictions, validate, validate_telling};
+pub use run::{
+    FoldTold, Validation, learning_curve, learning_curve_telling, study, study_with_predictions, validate,
+    validate_telling,
+};
 
 use crate::base::work::Cancelled;
 use crate::classify::{Algorithm, Confusion, Method, Scores, TableRates};

@@ -1,6 +1,8 @@
 //! Running a study: every fold, foreign test and point of a curve is a separate task, so that all threads
 //! are busy to the end and progress is even.
 
+use std::sync::{Mutex, PoisonError};
+
 use super::compare::Results;
 use super::measure::{Experiment, Outcome, Task};
 use super::predictions::Prediction;
@@ -126,12 +128,34 @@ pub fn learning_curve(
     algorithm: Algorithm,
     work: &Work<'_>,
 ) -> Result<Option<Curve>, StudyError> {
+    learning_curve_telling(collection, options, set, algorithm, &|_| {}, work)
+}
+
+/// The same as [`learning_curve`]; `told` hears of the curve so far after each part, from any thread.
+///
+/// # Errors
+/// As [`study`].
+pub fn learning_curve_telling(
+    collection: &Collection,
+    options: Options,
+    set: &str,
+    algorithm: Algorithm,
+    told: &(dyn Fn(Curve) + Sync),
+    work: &Work<'_>,
+) -> Result<Option<Curve>, StudyError> {
     let experiment = Experiment::new(collection, options)?;
     let Some(at) = experiment.sets.iter().position(|of| of.name == set) else { return Ok(None) };
     let is_wanted =
         |task: &Task| matches!(*task, Task::Point { set: of, algorithm: by, .. } if of == at && by == algorithm);
     let tasks: Vec<Task> = experiment.tasks().into_iter().filter(is_wanted).collect();
-    let results = perform(&experiment, tasks, work)?;
+    let so_far = Mutex::new(Results::new(Vec::new(), Vec::new()));
+    let heard = |task: Task, outcome: &Outcome| {
+        let Outcome::Point(learned, tested, right) = *outcome else { return };
+        let mut so_far = so_far.lock().unwrap_or_else(PoisonError::into_inner);
+        so_far.add(task, Outcome::Point(learned, tested, right));
+        so_far.curve(&experiment.sets[at], at, algorithm).into_iter().for_each(told);
+    };
+    let results = perform_telling(&experiment, tasks, &heard, work)?;
     Ok(results.curve(&experiment.sets[at], at, algorithm))
 }
 

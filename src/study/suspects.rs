@@ -4,6 +4,7 @@
 //! for each other. The review queue and `enfilade suspects` both stand on this.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use super::StudyError;
 use super::noise::is_alike;
@@ -247,6 +248,11 @@ fn weight_of(name: &str, learned_from: usize) -> f64 {
     }
 }
 
+/// The parts of the progress of asking about one set, in the order in which they are asked: the four learners, then the
+/// classifier that knows more, with folds by room and by building.
+const ROOM_SHARES: [Range<f64>; 2] = [0.0..0.2, 0.2..0.35];
+const BUILDING_SHARES: [Range<f64>; 2] = [0.35..0.55, 0.55..1.0];
+
 /// The name of what other rooms of a function say, among [`Opinions::of`].
 const BY_FUNCTION: &str = "by function";
 
@@ -295,16 +301,19 @@ fn asked(
         rows,
     };
     let typologies: BTreeSet<Option<Typology>> = opinions.rows.iter().map(|row| row.typology.clone()).collect();
-    let mut asked = false;
+    let (mut asked, mut rooms) = (false, 0);
     for typology in typologies {
         let of_set: Vec<usize> =
             (0..opinions.rows.len()).filter(|&row| opinions.rows[row].typology == typology).collect();
         let buildings: BTreeSet<&str> = of_set.iter().map(|&row| group_of(&opinions.rows[row])).collect();
         let is_small = of_set.len() < FEW_ROOMS || buildings.len() < FEW_BUILDINGS;
-        match models.filter(|_| is_small) {
-            Some(models) => asked |= opinions.ask_models(networks, &of_set, models, work)?,
-            None => asked |= opinions.ask(networks, &of_set, folds, seed, given, work)?,
-        }
+        let share = |rooms: usize| rooms as f64 / opinions.rows.len() as f64;
+        let shares = share(rooms)..share(rooms + of_set.len());
+        rooms += of_set.len();
+        asked |= work.within(shares, |work| match models.filter(|_| is_small) {
+            Some(models) => opinions.ask_models(networks, &of_set, models, work),
+            None => opinions.ask(networks, &of_set, folds, seed, given, work),
+        })?;
     }
     if asked {
         return Ok(opinions);
@@ -336,13 +345,19 @@ impl Opinions {
             asked = true;
             let validations: Vec<Validation<'_>> =
                 Algorithm::ALL.map(|algorithm| Validation { table: &table, folds: &folds, algorithm, seed }).to_vec();
-            for (algorithm, validated) in Algorithm::ALL.into_iter().zip(evaluate_all(&validations, work)?) {
+            // About what each takes of the time.
+            let [learners, whole] = match by {
+                Grouping::Building => BUILDING_SHARES,
+                Grouping::Room => ROOM_SHARES,
+            };
+            let all = work.within(learners, |work| evaluate_all(&validations, work))?;
+            for (algorithm, validated) in Algorithm::ALL.into_iter().zip(all) {
                 self.tell(&format!("{}, folds by {}", algorithm.name(), by.name()), of_set, &validated.predictions);
             }
-            match by {
-                Grouping::Building => self.ask_jointly(networks, of_set, &folds, seed, work)?,
-                Grouping::Room => self.ask_by_room(networks, of_set, &folds, seed, work)?,
-            }
+            work.within(whole, |work| match by {
+                Grouping::Building => self.ask_jointly(networks, of_set, &folds, seed, work),
+                Grouping::Room => self.ask_by_room(networks, of_set, &folds, seed, work),
+            })?;
         }
         self.ask_by_function(of_set, &own);
         Ok(asked)
@@ -432,7 +447,7 @@ impl Opinions {
     ) -> Result<(), Cancelled> {
         let of_rows: BTreeSet<usize> = of_set.iter().map(|&row| self.places[row].network).collect();
         let networks: Vec<&RoomNetwork> = of_rows.into_iter().map(|network| &networks[network]).collect();
-        let said = by_other_rooms(&networks, folds, seed, &work.alone().on_threads(work.threads()))?;
+        let said = by_other_rooms(&networks, folds, seed, work)?;
         self.tell(BY_ROOM, of_set, &said);
         Ok(())
     }

@@ -58,20 +58,37 @@ pub const LEAST_OVERLAP: f64 = 0.25;
 /// The links between two storeys with one origin, by the room below. Each room below is joined to all above it: a flight
 /// of stairs may end in two rooms.
 pub fn vertical_links(lower: &Plan, upper: &Plan) -> Vec<VerticalLink> {
-    let (below, above) = (shafts(lower), shafts(upper));
-    let mut links = Vec::new();
-    for p in &below {
-        for q in above.iter().filter(|q| q.shaft == p.shaft) {
-            let overlap = shared_m2(&p.outer, &q.outer) / p.area_m2.min(q.area_m2);
-            if overlap >= LEAST_OVERLAP {
-                links.push(VerticalLink { shaft: p.shaft, lower: p.room, upper: q.room, overlap: overlap.min(1.0) });
+    Shafts::of(lower).links_to(&Shafts::of(upper))
+}
+
+/// The stairs and lifts of a storey: what its links follow from.
+#[derive(Clone, Debug, Default)]
+pub struct Shafts(Vec<Placed>);
+
+impl Shafts {
+    /// Those of a plan.
+    pub fn of(plan: &Plan) -> Self {
+        Self(shafts(plan))
+    }
+
+    /// The links to the storey above, as [`vertical_links`].
+    pub fn links_to(&self, above: &Self) -> Vec<VerticalLink> {
+        let mut links = Vec::new();
+        for p in &self.0 {
+            for q in above.0.iter().filter(|q| q.shaft == p.shaft) {
+                let overlap = shared_m2(&p.outer, &q.outer) / p.area_m2.min(q.area_m2);
+                if overlap >= LEAST_OVERLAP {
+                    let (shaft, lower, upper) = (p.shaft, p.room, q.room);
+                    links.push(VerticalLink { shaft, lower, upper, overlap: overlap.min(1.0) });
+                }
             }
         }
+        links
     }
-    links
 }
 
 /// Stairs or a lift of a plan.
+#[derive(Clone, Debug)]
 struct Placed {
     room: RoomId,
     shaft: Shaft,

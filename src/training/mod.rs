@@ -115,8 +115,8 @@ pub trait Watcher {
     /// When it cannot be kept.
     fn made(&mut self, model: Made) -> Result<(), Self::Error>;
 
-    /// Who hears of each fold that was tested, from any thread.
-    fn folds(&self) -> Arc<dyn Fn(FoldTold) + Send + Sync> {
+    /// Who hears of each fold of a set that was tested, from any thread.
+    fn folds(&self, _set: &str) -> Arc<dyn Fn(FoldTold) + Send + Sync> {
         Arc::new(|_| {})
     }
 }

@@ -39,7 +39,7 @@ pub(super) fn validated<W: Watcher>(
     if order.folds == 0 || order.groupings.is_empty() {
         return Ok((scores, predictions));
     }
-    let told = watcher.folds();
+    let told = watcher.folds(set);
     let algorithms: Vec<Algorithm> =
         Algorithm::ALL.into_iter().filter(|&algorithm| methods.contains(&Method::Each(algorithm))).collect();
     if !algorithms.is_empty() {

@@ -7,7 +7,7 @@ use crate::base::natural_order::NaturalKey;
 use crate::base::work::{Cancelled, Work};
 use crate::features::RoomStatus;
 use crate::labels::{Label, Typology};
-use crate::workspace::buildings;
+use crate::plan::storeys::level_key;
 
 /// What is wanted. Without anything, all.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -330,10 +330,10 @@ fn sort_plans(workspace: &Workspace, rows: &mut [PlanRow], order: Order<PlanColu
         }),
         PlanColumn::Building => {
             // Storeys of a building stand in their order.
-            figure(rows, &|_, plan| buildings::level_key(&plan.storey));
+            figure(rows, &|_, plan| level_key(&plan.storey));
             text(rows, order, &|_, plan| plan.map(|plan| plan.building.to_string()).unwrap_or_default());
         }
-        PlanColumn::Storey => figure(rows, &|_, plan| buildings::level_key(&plan.storey)),
+        PlanColumn::Storey => figure(rows, &|_, plan| level_key(&plan.storey)),
         PlanColumn::Rooms => figure(rows, &|_, plan| plan.rooms.len() as i64),
         PlanColumn::Labelled => figure(rows, &|_, plan| number(plan.share_labelled())),
         PlanColumn::Problems => sort_by_key(rows, order, |row| match workspace.plan(row) {

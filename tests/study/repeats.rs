@@ -4,10 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use enfilade::edit;
+use enfilade::edit::storey::{Keep, copied};
 use enfilade::geometry::{Point, Transform, Vector};
 use enfilade::labels::Label;
 use enfilade::plan::{ElementId, LabelOrigin, Meta, Plan, RoomLabel};
 use enfilade::store::{save_bytes, save_plan};
+use enfilade::topology::vertical::vertical_links;
 
 use super::{PLANS, bundled, enfilade, folder, text_of};
 
@@ -143,6 +145,56 @@ fn near_twins_are_never_split() {
     let groups: BTreeSet<&str> =
         rows.iter().filter(|row| row["typology"] == "office").map(|row| row["group"].as_str()).collect();
     assert_eq!(groups, BTreeSet::from(["Tower + Annex"]), "{err}");
+}
+
+/// The edges of a building of two storeys: its openings, and its stairs and lifts that lie over each other.
+#[test]
+fn a_dataset_holds_the_ways_within_and_between_storeys() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let of_school = |plan: &Plan, storey: &str| {
+        let meta = Meta { building: "School".to_owned(), storey: storey.to_owned(), ..plan.meta().clone() };
+        edit::set_meta(plan, meta)
+    };
+    let below = of_school(&bundled("school"), "ground floor");
+    let above = of_school(&copied(&below, "first floor", Keep::All), "first floor");
+    // By their names the upper one is read first.
+    save_plan(&path("a.plan.json"), &above).unwrap();
+    save_plan(&path("b.plan.json"), &below).unwrap();
+    let csv = path("rooms.csv");
+    let (code, _, err) = enfilade(["dataset", text_of(folder.path()), "-o", text_of(&csv)]);
+    assert_eq!(code, 0, "{err}");
+    let text = std::fs::read_to_string(path("rooms.edges.csv")).unwrap();
+    let (between, within): (Vec<Row>, Vec<Row>) = rows(&text).into_iter().partition(|row| !row["overlap"].is_empty());
+    let links = vertical_links(&below, &above);
+    assert!(links.len() > 1, "the school has stairs");
+    let link = |row: &Row| [&row["kind"], &row["from_id"], &row["to_id"]].map(String::clone);
+    let expected: Vec<[String; 3]> =
+        links.iter().map(|it| [it.shaft.name().to_owned(), it.lower.to_string(), it.upper.to_string()]).collect();
+    assert_eq!(between.iter().map(link).collect::<Vec<_>>(), expected);
+    for row in &between {
+        assert!(row["from_file"].ends_with("b.plan.json") && row["to_file"].ends_with("a.plan.json"), "{row:?}");
+        assert_eq!(
+            [&row["from_storey"], &row["to_storey"], &row["building"]],
+            ["ground floor", "first floor", "School"]
+        );
+    }
+    // Each opening counts once for each room that it leads to, and has one edge.
+    let rooms = rows(&std::fs::read_to_string(&csv).unwrap());
+    let leads: usize = rooms
+        .iter()
+        .flat_map(|row| ["l_S", "l_M", "l_B", "l_C", "l_H"].map(|name| row[name].parse::<usize>().unwrap()))
+        .sum();
+    assert!(within.len() * 2 == leads && leads > 0, "{} edges, {leads} ways", within.len());
+    assert!(within.iter().all(|row| row["from_file"] == row["to_file"] && row["from_id"] != row["to_id"]));
+    let schema: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(path("rooms.edges.schema.json")).unwrap()).unwrap();
+    let names: Vec<&str> =
+        schema["fields"].as_array().unwrap().iter().map(|field| field["name"].as_str().unwrap()).collect();
+    assert_eq!(text.lines().next().unwrap(), names.join(","));
+    let manifest: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(path("rooms.manifest.json")).unwrap()).unwrap();
+    assert_eq!(manifest["edges"]["rows"].as_u64(), Some((between.len() + within.len()) as u64));
 }
 
 /// Folds of a dataset are those that are read back; a table that lacks a room, or splits a building, is refused.

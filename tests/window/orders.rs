@@ -207,7 +207,7 @@ fn a_dataset_that_is_given_up_is_not_written() {
     window.run_command_with("export-dataset", &[&rooms.to_string_lossy()]).unwrap();
     window.run_command("export-dataset");
     window.settle().unwrap();
-    assert!(window.click_control("Give up"), "{:?}", window.controls());
+    assert!(window.click_control("Stop"), "{:?}", window.controls());
     window.settle().unwrap();
     // What was begun ends without a file, whenever it does.
     while let Some(job) = window.held_jobs().first().copied() {

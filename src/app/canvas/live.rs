@@ -93,14 +93,15 @@ impl Canvas {
 /// A change of the sureness that is seen: by five percentage points.
 const SEEN: f64 = 0.05;
 
-/// Recolours the rooms whose predicted label is another than in the drawing below, or whose sureness has visibly changed. Returns
-/// these rooms, whose walls are painted over.
+/// Recolours the rooms whose predicted label is another than in the drawing below, or whose sureness has visibly changed, and those
+/// whose fill was painted over. Returns these rooms: their halves of the walls around them are covered.
 pub(super) fn paint_new_labels(
     painter: &Painter,
     rect: Rect,
     view: &View,
     drawn: &Labelled,
     now: &Labelled,
+    is_covered: &dyn Fn(RoomId) -> bool,
     palette: &Palette,
 ) -> Vec<RoomId> {
     let Some((earlier, later)) = drawn.predictions.as_ref().zip(now.predictions.as_ref()) else { return Vec::new() };
@@ -111,7 +112,7 @@ pub(super) fn paint_new_labels(
         let before = earlier.distribution(room.id).map(Distribution::likeliest);
         let is_as_before = before.is_some_and(|(was, was_sure)| was == label && (was_sure - sure).abs() < SEEN);
         let shape = now.analysis.shapes.get(room.id).filter(|shape| shape.bounds.intersects(seen));
-        let Some(shape) = shape.filter(|_| !is_as_before) else { continue };
+        let Some(shape) = shape.filter(|_| !is_as_before || is_covered(room.id)) else { continue };
         let triangles = earcut(&shape.outer, &shape.holes);
         let fill = theme::colour(predicted_fill(palette, RoomStatus::Labelled(label), sure));
         painter.add(Shape::mesh(polygon_mesh(rect, view, &shape.outer, &shape.holes, &triangles, fill)));

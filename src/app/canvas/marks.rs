@@ -46,11 +46,11 @@ impl Canvas {
         if let Some(pending) = &self.pending {
             pending.paint(painter, rect, view, style, &session.schemes, labelled.is_some());
             if let Some(labelled) = labelled.filter(|_| style.fill == Fill::Prediction && !pending.is_all()) {
-                let recoloured = paint_new_labels(painter, rect, view, &drawn.labelled, labelled, style.palette());
+                let is_covered = |room| pending.covers(room);
+                let palette = style.palette();
+                let recoloured = paint_new_labels(painter, rect, view, &drawn.labelled, labelled, &is_covered, palette);
+                Around::rooms(plan, &recoloured).paint(plan, painter, rect, view, style);
                 pending.paint_walls(painter, rect, view, style);
-                if !recoloured.is_empty() {
-                    Around::rooms(plan, &recoloured).paint(plan, painter, rect, view, style);
-                }
             }
         }
     }

@@ -70,6 +70,21 @@ pub(crate) fn caption(ui: &mut Ui, text: impl Into<String>) -> Response {
     ui.add(egui::Label::new(RichText::new(text).size(theme::SMALL).color(colour)).wrap())
 }
 
+/// How far something is, 0..=1: a bar as wide as there is room, with a name for screen readers.
+pub(crate) fn progress_bar(ui: &mut Ui, share: f64, name: &str) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 10.0), Sense::hover());
+    let track = rect.shrink2(vec2(0.0, 2.0));
+    let (colours, radius) = (colours(ui), track.height() / 2.0);
+    ui.painter().rect_filled(track, radius, colours.border);
+    let share = share.clamp(0.0, 1.0);
+    // A bit that has begun can be seen.
+    let width = if share > 0.0 { (track.width() * share as f32).max(track.height()) } else { 0.0 };
+    ui.painter().rect_filled(Rect::from_min_size(track.min, vec2(width, track.height())), radius, colours.accent);
+    let name = name.to_owned();
+    response.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, &name));
+    response
+}
+
 /// A hairline across a panel, edge to edge.
 pub(crate) fn hairline(ui: &mut Ui) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 15.0), Sense::hover());

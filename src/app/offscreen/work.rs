@@ -22,6 +22,29 @@ impl Offscreen {
         self
     }
 
+    /// The next job of a name, after so many others of it, stops at a percentage of its progress, 0 before it starts, until
+    /// [`Self::let_jobs_go`].
+    pub fn stop_job(&mut self, name: &str, percent: usize, passing: usize) {
+        self.app.session.jobs.stop_at(name, percent, passing);
+    }
+
+    /// The name of the job that is to stop and has not started yet.
+    pub fn job_to_stop(&self) -> Option<&str> {
+        self.app.session.jobs.stops_next()
+    }
+
+    /// Lets the jobs that stopped go on, to another percentage of their progress or to their ends. Returns how many there were.
+    pub fn let_jobs_go(&mut self, percent: Option<usize>) -> usize {
+        let jobs = self.app.session.jobs.let_go(percent);
+        self.frame(Vec::new(), Vec::new(), false);
+        jobs
+    }
+
+    /// The names of all jobs that have started, in the order of the alphabet.
+    pub fn job_names(&self) -> Vec<&'static str> {
+        self.app.session.jobs.names().collect()
+    }
+
     /// The names of the held jobs, in the order they were started.
     pub fn held_jobs(&self) -> Vec<&'static str> {
         self.app.session.jobs.held()

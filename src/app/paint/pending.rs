@@ -39,6 +39,8 @@ pub(crate) struct Pending {
     gone: Vec<(Segment, f64)>,
     /// What changed, and what stands around changed rooms, which get painted over.
     around: Around,
+    /// The rooms that are there now, of the areas.
+    rooms: BTreeSet<RoomId>,
 }
 
 /// Walls, with their thickness in metres, and openings.
@@ -106,6 +108,7 @@ impl Pending {
             areas: Vec::new(),
             gone: Vec::new(),
             around: Around::default(),
+            rooms: BTreeSet::new(),
         };
         let changed = Difference::between(earlier, plan).seen(earlier, plan);
         if earlier.meta() != plan.meta() || changed.len() > MOST_CHANGES {
@@ -150,12 +153,18 @@ impl Pending {
         pending.around.walls.extend(closed.map(|segment| (segment, crate::plan::DEFAULT_WALL_THICKNESS_M)));
         // First what was removed, then what is there.
         pending.areas.sort_by_key(|(_, _, now)| now.is_some());
+        pending.rooms = pending.areas.iter().filter_map(|(_, _, now)| *now).collect();
         pending
     }
 
     /// Whether this is the difference between these plans.
     pub(crate) fn is_between(&self, earlier: &Plan, plan: &Plan) -> bool {
         self.earlier.is_same_value(earlier) && self.plan.is_same_value(plan)
+    }
+
+    /// Whether the fill of a room is painted over.
+    pub(crate) fn covers(&self, room: RoomId) -> bool {
+        self.rooms.contains(&room)
     }
 
     /// Whether it affects everything.

@@ -4,20 +4,20 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use egui::{FontId, ProgressBar, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, vec2};
+use egui::{FontId, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, vec2};
 
 use super::chart_view;
 use super::forms;
 use super::forms::{choose, pick};
 use crate::app::look::theme;
 use crate::app::look::widgets::{
-    Lead, ROW, Row, caption, colours, hairline_in, put_line, right, section, strong, text_button,
+    Lead, ROW, Row, caption, colours, hairline_in, progress_bar, put_line, right, section, strong, text_button,
 };
 use crate::app::session::at_hand::AtHand;
-use crate::app::session::measures::{ChartWanted, Measured, set_words};
+use crate::app::session::measures::{ChartWanted, Measured, TESTING_SHARE, set_words};
 use crate::app::state::{After, App, Dialog, Entry, dialogs};
 use crate::app::value::{Call, Value};
-use crate::base::wording::{count, sentence, thousands};
+use crate::base::wording::{count, percent_done, sentence, thousands};
 use crate::chart::rooms::{ChartKind, FEATURES};
 use crate::classify::Algorithm;
 use crate::dataset::sets::STANDARD;
@@ -165,8 +165,7 @@ impl Dashboard {
         });
         ui.add_space(2.0);
         if app.session.at_hand.is_reading() {
-            let (done, all) = app.session.rooms_progress().unwrap_or((0, 1));
-            ui.add(ProgressBar::new(done as f32 / all.max(1) as f32).text(format!("Reading {}", count(all, "file"))));
+            reading(app, ui);
             return act;
         }
         let Some(at_hand) = at_hand.filter(|at_hand| !at_hand.rows.is_empty()) else {
@@ -301,9 +300,10 @@ impl Dashboard {
                 if text_button(ui, "Stop", false).clicked() {
                     app.session.measures.cancel();
                 }
-                let (done, all) = app.session.measure_progress().unwrap_or((0, 1));
-                let bar = ProgressBar::new(done as f32 / all.max(1) as f32).desired_width(220.0);
-                ui.add(bar.text(format!("{done} of {all}")));
+                let share = app.session.measure_progress();
+                let said = measuring(app, share);
+                ui.allocate_ui(vec2(220.0, ROW), |ui| progress_bar(ui, share, &said));
+                ui.add(egui::Label::new(egui::RichText::new(said).size(theme::SMALL).color(colours(ui).text_weak)));
             } else if text_button(ui, "Measure accuracy", true).clicked() {
                 let word = self.algorithm.name();
                 let values = [Value::Text(self.set.clone()), Value::Text(word.to_owned())];
@@ -313,18 +313,22 @@ impl Dashboard {
         if let Some(error) = &app.session.measures.error {
             ui.label(egui::RichText::new(sentence(&format!("{error}."))).color(colours(ui).error));
         }
-        let Some(measured) = app.session.measures.of_sets.get(&self.set).filter(|of| !of.is_empty()) else {
+        if !app.session.has_measured(&self.set) {
+            let title = if app.session.measures.is_measuring() { "Measuring" } else { "Nothing measured yet" };
             note(
                 ui,
-                "Nothing measured yet",
+                title,
                 "Measuring trains the classifier ten times, each time without some of the buildings, and asks it for the \
                  labels of these. Nothing is kept; to make a model, choose Train models.",
             );
             return act;
-        };
+        }
+        let measured = app.session.measures.of_sets.get(&self.set).map(Vec::as_slice).unwrap_or_default();
         ScrollArea::vertical().id_salt("accuracy").auto_shrink(false).show(ui, |ui| {
-            caption(ui, told_of_measured(measured));
-            ui.add_space(2.0);
+            if !measured.is_empty() {
+                caption(ui, told_of_measured(measured));
+                ui.add_space(2.0);
+            }
             ui.columns(2, |columns| {
                 let below = self.chart(app, &mut columns[0], palette, at_hand, ChartKind::LearningCurve, 340.0);
                 act = act.take().or(below);
@@ -467,6 +471,26 @@ fn export_button(ui: &mut Ui, chart: Rect, wanted: ChartWanted) -> Option<Act> {
         is_clicked = text_button(ui, "Export…", false).on_hover_text(help).clicked();
     });
     is_clicked.then_some(Act::Export(wanted))
+}
+
+/// What is being measured, and how far it is.
+fn measuring(app: &App, share: f64) -> String {
+    let of = app.session.measures.measuring().map_or("", |algorithm| algorithm.learner().short_title());
+    let what = if share < TESTING_SHARE { "buildings left out" } else { "learning curve" };
+    format!("{of}, {what}: {}", percent_done(share))
+}
+
+/// How far reading the rooms is.
+fn reading(app: &App, ui: &mut Ui) {
+    let (done, all) = app.session.rooms_progress().unwrap_or((0, 0));
+    let said = if all == 0 { "Looking for plans".to_owned() } else { format!("{done} of {} read", count(all, "file")) };
+    ui.add_space((ui.available_height() * 0.3).max(12.0));
+    ui.vertical_centered(|ui| {
+        ui.label(said.clone());
+        ui.add_space(4.0);
+        let share = done as f64 / all.max(1) as f64;
+        ui.allocate_ui(vec2(360.0f32.min(ui.available_width()), ROW), |ui| progress_bar(ui, share, &said));
+    });
 }
 
 /// What the page says where it has nothing to show.

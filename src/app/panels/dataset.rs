@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use egui::{Align2, Id, Modal, ProgressBar, TextEdit, Ui};
+use egui::{Align2, Id, Modal, TextEdit, Ui};
 
 use super::export::told;
 use crate::app::look::{
     theme,
-    widgets::{caption, dialog_frame, main_button, right, section, strong, text_button},
+    widgets::{caption, dialog_frame, main_button, progress_bar, right, section, strong, text_button},
 };
 use crate::app::state::{After, App, Dialog, Entry, dialogs};
 use crate::app::value::{Call, Value};
@@ -141,16 +141,17 @@ impl Dataset {
 fn progress(app: &App, ui: &mut Ui) -> Option<End> {
     let mut act = None;
     let (done, all) = app.session.dataset_progress().unwrap_or((0, 1));
-    caption(ui, format!("{done} of {} read", count(all, "plan")));
+    let said = format!("{done} of {} read", count(all, "file"));
+    caption(ui, said.clone());
     ui.add_space(4.0);
-    ui.add(ProgressBar::new(done as f32 / all.max(1) as f32));
+    progress_bar(ui, done as f64 / all.max(1) as f64, &said);
     ui.add_space(12.0);
     ui.horizontal(|ui| {
         right(ui, |ui| {
             if text_button(ui, "Continue in the background", true).clicked() {
                 act = Some(End::Leave);
             }
-            if text_button(ui, "Give up", false).clicked() {
+            if text_button(ui, "Stop", false).clicked() {
                 act = Some(End::GiveUp);
             }
         });

@@ -6,13 +6,13 @@ use egui::{Id, Key, Label, Margin, Rect, RichText, Role, ScrollArea, Sense, Text
 use crate::app::commands;
 use crate::app::look::{
     theme,
-    widgets::{caption, colours, link, right, section, strong, text_button},
+    widgets::{caption, colours, link, progress_bar, right, section, strong, text_button},
 };
 use crate::app::panels::prediction::bar;
-use crate::app::session::review::{Progress, Shown};
+use crate::app::session::review::{Progress, READING_SHARE, Shown};
 use crate::app::state::{App, Height, Side, SidePanel, panels};
 use crate::app::value::{Call, Value};
-use crate::base::wording::{count, sentence, shortened};
+use crate::base::wording::{count, percent_done, sentence, shortened};
 use crate::labels::Label as RoomLabel;
 use crate::plan::titles::printable;
 use crate::review::{Entry, Reason};
@@ -61,7 +61,7 @@ fn show(app: &mut App, ui: &mut Ui) {
         ui.add_space(4.0);
         asked = match app.session.review_shown() {
             Shown::Idle => idle(ui, app),
-            Shown::Making(progress) => making(ui, progress),
+            Shown::Making(share) => making(ui, app, share),
             Shown::Failed(why) => failed(ui, app, why),
             Shown::Finished => finished(ui, app, progress),
             Shown::Room(entry) => {
@@ -106,15 +106,25 @@ fn idle(ui: &mut Ui, app: &App) -> Option<Call> {
     text_button(ui, "Review the labels", true).clicked().then(|| Call::new("review-labels", []))
 }
 
-fn making(ui: &mut Ui, progress: Option<(usize, usize)>) -> Option<Call> {
-    let said = match progress {
-        Some((done, of)) => format!("Reading and judging the plans: {done} of {of}"),
-        None => "Reading the plans…".to_owned(),
+fn making(ui: &mut Ui, app: &App, share: f64) -> Option<Call> {
+    let is_comparison = app.session.review.is_comparison();
+    let said = match is_comparison || share < READING_SHARE {
+        true => "Reading the plans",
+        false => "Judging the rooms",
     };
-    text(ui, said);
-    caption(ui, "Classifiers learn from some buildings and judge the others, in turn. You can go on working.");
+    ui.horizontal(|ui| {
+        ui.label(said);
+        right(ui, |ui| drop(caption(ui, percent_done(share))));
+    });
+    progress_bar(ui, share, &format!("{said}: {}", percent_done(share)));
+    let help = if is_comparison {
+        "Rooms that the other person labelled otherwise come one after the other. You can go on working."
+    } else {
+        "Classifiers learn from some buildings and judge the others, in turn. You can go on working."
+    };
+    caption(ui, help);
     ui.add_space(6.0);
-    text_button(ui, "Cancel", false).clicked().then(|| Call::new("review-stop", []))
+    text_button(ui, "Stop", false).clicked().then(|| Call::new("review-stop", []))
 }
 
 fn failed(ui: &mut Ui, app: &App, why: &str) -> Option<Call> {

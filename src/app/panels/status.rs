@@ -1,15 +1,15 @@
 //! The status line: counts, the last action, pointer position, zoom.
 
-use crate::base::wording::{count, thousands};
+use crate::base::wording::{count, percent_done, thousands};
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
 use crate::app::commands;
 use crate::app::look::{
     icons::Icon,
     theme,
-    widgets::{colours, icon_button, right},
+    widgets::{colours, icon_button, link, right},
 };
-use crate::app::state::App;
+use crate::app::state::{App, dialogs};
 
 /// Metres per point on a 96 dpi screen, which egui's points are meant to match.
 const METRES_PER_POINT: f64 = 0.0254 / 96.0;
@@ -28,6 +28,13 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         }
         super::findings::badge(app, ui);
         ui.add_space(4.0);
+        if app.session.training.is_running() && !app.dialogs.is_open(dialogs::TRAINING) {
+            let said = format!("Training: {}", percent_done(app.session.training.live().share()));
+            if link(ui, &said).on_hover_text("Show how far the training is").clicked() {
+                app.open_dialog(dialogs::TRAINING);
+            }
+            ui.add_space(8.0);
+        }
         // Never over the right part.
         let is_narrow = ui.ctx().content_rect().width() < NARROW;
         let right_width = if is_narrow { ZOOM_WIDTH } else { RIGHT_WIDTH };

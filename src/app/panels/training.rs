@@ -4,22 +4,22 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use egui::{Color32, FontId, Id, Modal, ProgressBar, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Color32, FontId, Id, Modal, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::chart_view;
 use super::dashboard::{Look, table_line};
 use super::forms::{choose, line, pick, text};
 use crate::app::look::theme;
 use crate::app::look::widgets::{
-    caption, colours, dialog_frame, hairline_in, main_button, right, section, strong, text_button, toggle,
+    caption, colours, dialog_frame, hairline_in, main_button, progress_bar, right, section, strong, text_button, toggle,
 };
 use crate::app::session::at_hand::Source;
 use crate::app::session::training::{Report, Wish};
 use crate::app::state::{After, App, Dialog, Entry, dialogs};
 use crate::app::value::{Call, Value};
 use crate::base::file_name::component;
-use crate::base::wording::{count, sentence};
-use crate::chart::rooms;
+use crate::base::wording::{count, percent_done, sentence};
+use crate::chart::{Chart, rooms};
 use crate::classify::{Algorithm, Method, Scores};
 use crate::dataset::folds::Grouping;
 use crate::dataset::sets::STANDARD;
@@ -51,8 +51,8 @@ struct Training {
     picked: usize,
     /// What a file is being chosen for.
     choosing: Option<Choosing>,
-    /// When the step that runs began, by the window's clock, and its number.
-    since: (usize, f64),
+    /// The number of the step that runs, when it was first seen here by the window's clock, and what was done then.
+    since: (usize, f64, usize),
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -99,7 +99,7 @@ impl Training {
             as_default: false,
             picked: 0,
             choosing: None,
-            since: (0, 0.0),
+            since: (0, 0.0, 0),
         }
     }
 }
@@ -307,17 +307,23 @@ impl Training {
     fn progress(&mut self, app: &App, ui: &mut Ui) -> Option<End> {
         let live = app.session.training.live();
         let now = ui.input(|input| input.time);
+        // The dialog may have been opened when a part was done already.
         if self.since.0 != live.step_number {
-            self.since = (live.step_number, now);
+            self.since = (live.step_number, now, live.done);
         }
         let step = sentence(&live.step);
         let steps =
             if live.steps > 1 { format!(" (step {} of {})", live.step_number, live.steps) } else { String::new() };
-        ui.label(if step.is_empty() { "Getting ready".to_owned() } else { format!("{step}{steps}") });
-        ui.add(ProgressBar::new(live.share() as f32).show_percentage());
+        let said = if step.is_empty() { "Getting ready".to_owned() } else { format!("{step}{steps}") };
+        ui.horizontal(|ui| {
+            ui.label(&said);
+            right(ui, |ui| drop(caption(ui, percent_done(live.share()))));
+        });
+        progress_bar(ui, live.share(), &format!("{said}: {}", percent_done(live.share())));
         let elapsed = now - self.since.1;
-        let left = if live.done > 0 && live.count > live.done && elapsed > 1.0 {
-            let seconds = elapsed * (live.count - live.done) as f64 / live.done as f64;
+        let seen = live.done.saturating_sub(self.since.2);
+        let left = if seen > 0 && live.count > live.done && elapsed > 1.0 {
+            let seconds = elapsed * (live.count - live.done) as f64 / seen as f64;
             format!("About {} left in this step", in_words(seconds))
         } else {
             " ".to_owned()
@@ -325,15 +331,25 @@ impl Training {
         caption(ui, left);
         ui.add_space(4.0);
         let palette = app.session.palette(ui);
-        let chart = rooms::folds(&live.folds);
-        if chart.is_empty() {
+        let folds = rooms::folds(&live.folds, &of_set(&live.set), live.fold_count);
+        let rounds = rooms::rounds(&live.rounds);
+        let charts: Vec<&Chart> = [&folds, &rounds].into_iter().filter(|chart| !chart.is_empty()).collect();
+        if charts.is_empty() {
             let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 250.0), Sense::hover());
             ui.painter().rect_filled(rect, theme::RADIUS, colours(ui).field);
-            let text = "The accuracy of each fold appears here once it is tested.";
+            let text = if live.fold_count > 0 {
+                "The accuracy of each fold appears here once it is tested."
+            } else {
+                "Nothing is tested, so there are no curves."
+            };
             let font = FontId::proportional(theme::BODY);
             ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, text, font, colours(ui).text_weak);
         } else {
-            chart_view::show(ui, palette, &chart, 250.0, &BTreeSet::new(), None);
+            ui.columns(charts.len(), |columns| {
+                for (ui, chart) in columns.iter_mut().zip(&charts) {
+                    chart_view::show(ui, palette, chart, 250.0, &BTreeSet::new(), None);
+                }
+            });
         }
         ui.add_space(10.0);
         let mut act = None;

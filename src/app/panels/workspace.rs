@@ -9,14 +9,14 @@ mod thumbnails;
 
 use std::collections::BTreeMap;
 
-use egui::{Align2, ComboBox, Id, Key, Modal, Modifiers, ProgressBar, TextEdit, Ui, vec2};
+use egui::{Align2, ComboBox, Id, Key, Modal, Modifiers, TextEdit, Ui, vec2};
 
 use crate::app::commands;
 use crate::app::look::icons::Icon;
 use crate::app::look::theme;
 use crate::app::look::widgets::{
-    Segment, caption, colours, dialog_frame, focus_ring, hairline_in, icon_button, right, segmented, strong,
-    text_button, toggle,
+    Segment, caption, colours, dialog_frame, focus_ring, hairline_in, icon_button, progress_bar, right, segmented,
+    strong, text_button, toggle,
 };
 use crate::app::session::workspace::OpenWorkspace;
 use crate::app::session::workspace::shows::Shows;
@@ -260,11 +260,16 @@ impl Table {
     /// What is selected, and what can be done with it.
     fn foot(&mut self, app: &mut App, ui: &mut Ui) -> Option<Act> {
         let mut act = None;
+        let is_writing = app.session.changing_shown().is_some();
         let workspace = app.session.workspace.as_mut()?;
+        let is_listing = workspace.now.files().is_empty() && workspace.indexing.is_some();
+        let is_looking = is_listing || workspace.view.is_behind(workspace.revision);
         let thing = if workspace.view.shows == Shows::Rooms { "room" } else { "plan" };
         ui.horizontal(|ui| {
             let (length, selected) = (workspace.view.len(), &workspace.view.selected);
-            let said = if selected.is_empty() {
+            let said = if length == 0 && is_looking {
+                String::new()
+            } else if selected.is_empty() {
                 format!("{} shown", counted(length, thing))
             } else {
                 format!("{} of {} selected", selected.counted(), thousands(length as u64))
@@ -281,7 +286,8 @@ impl Table {
                 if let Some(changed) = &workspace.changed {
                     let files = count(changed.files.len(), "file");
                     let help = format!("Put {files} back as before, where nobody has changed them since");
-                    if text_button(ui, "Undo change", false).on_hover_text(help).clicked() {
+                    let undo = ui.add_enabled_ui(!is_writing, |ui| text_button(ui, "Undo change", false)).inner;
+                    if undo.on_hover_text(help).clicked() {
                         act = Some(Act::Run("undo-workspace-change"));
                     }
                 }
@@ -307,7 +313,8 @@ fn heading(app: &mut App, ui: &mut Ui, totals: &Totals) -> Option<Act> {
     let folder = app.session.workspace.as_ref().map(|workspace| workspace.now.folder().to_owned())?;
     let shown = app.session.shown_path(&folder);
     let name = folder.file_name().map_or_else(|| shown.clone(), |name| name.to_string_lossy().into_owned());
-    let OpenWorkspace { view, indexing, .. } = app.session.workspace.as_mut()?;
+    let indexing = app.session.changing_shown().or_else(|| app.session.indexing_shown());
+    let OpenWorkspace { view, .. } = app.session.workspace.as_mut()?;
     ui.horizontal(|ui| {
         ui.label(strong(name, theme::TITLE)).on_hover_text(shown);
         right(ui, |ui| {
@@ -344,12 +351,13 @@ fn heading(app: &mut App, ui: &mut Ui, totals: &Totals) -> Option<Act> {
         });
     });
     ui.horizontal(|ui| {
-        caption(ui, said_of(totals));
-        if let Some(indexing) = indexing {
+        caption(ui, said_of(totals, app.session.indexing_shown().is_some()));
+        if let Some((share, said)) = indexing {
             right(ui, |ui| {
-                let share = if indexing.count == 0 { 0.0 } else { indexing.done as f32 / indexing.count as f32 };
-                ui.add(ProgressBar::new(share).desired_width(120.0).desired_height(6.0));
-                caption(ui, indexing.words());
+                if share > 0.0 {
+                    ui.allocate_ui(vec2(120.0, 20.0), |ui| progress_bar(ui, share, &said));
+                }
+                caption(ui, said);
             });
         }
     });
@@ -357,8 +365,12 @@ fn heading(app: &mut App, ui: &mut Ui, totals: &Totals) -> Option<Act> {
 }
 
 /// '56 plans, 1,847 rooms, 87 % labelled; 2 files cannot be read'.
-fn said_of(totals: &Totals) -> String {
+fn said_of(totals: &Totals, is_indexing: bool) -> String {
     let Totals { plans, rooms, to_label, labelled, pending, broken } = *totals;
+    if is_indexing && plans + broken == 0 {
+        // Nothing is known of them yet.
+        return if pending > 0 { counted(pending, "file") } else { String::new() };
+    }
     let mut said = format!("{}, {}", counted(plans, "plan"), counted(rooms, "room"));
     if to_label > 0 {
         said.push_str(&format!(", {} labelled", cells::percent(labelled, to_label)));

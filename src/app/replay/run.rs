@@ -235,6 +235,11 @@ fn run(
         let left = super::stage::count(stage.window.answers_left(), "answer");
         report.failures.push(whole(format!("{left} left that no dialog asked for"), "take it out, or open the dialog"));
     }
+    if let Some(name) = stage.window.job_to_stop().filter(|_| report.failures.is_empty()) {
+        let what = format!("the job {} was to stop and did not start", super::words::in_quotes(name));
+        let names: Vec<String> = stage.window.job_names().into_iter().map(super::words::in_quotes).collect();
+        report.failures.push(whole(what, &format!("these have started: {}", names.join(", "))));
+    }
     report.snapshots = stage.snapshots;
     report.updated = std::mem::take(&mut stage.updated);
     Ok(())

@@ -154,11 +154,13 @@ fn make(
     if made.rooms == 0 {
         return Err("no room of these plans has a label; label some first".to_owned());
     }
-    // From here on it is written to the end, so that the three belong together.
+    // From here on it is written to the end, so that the files belong together.
     work.goes_on().map_err(cancelled)?;
     let parts = [
         (path.to_owned(), &made.csv),
+        (beside(path, "edges.csv"), &made.edges),
         (beside(path, "schema.json"), &made.schema),
+        (beside(path, "edges.schema.json"), &made.edges_schema),
         (beside(path, "manifest.json"), &made.manifest),
     ];
     for (path, bytes) in parts {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::Context;
 
@@ -23,7 +24,7 @@ use crate::features::{Features, NeighbourLabels};
 use crate::labels::Label;
 use crate::store;
 use crate::study::paper::PaperFigures;
-use crate::study::{Condition, Options, StudyError, learning_curve, validate};
+use crate::study::{Condition, Curve, CurvePoint, Options, StudyError, learning_curve_telling, validate};
 
 /// The name of the job, by which its progress is found.
 const JOB: &str = "measure classifiers";
@@ -92,12 +93,34 @@ pub(crate) struct Measured {
 pub(crate) struct Measures {
     pub of_sets: BTreeMap<String, Vec<Measured>>,
     pub error: Option<String>,
-    job: Option<Wanted>,
+    running: Option<Running>,
+}
+
+/// What is being measured.
+struct Running {
+    set: String,
+    algorithm: Algorithm,
+    /// The learning curve so far.
+    curve: Arc<Mutex<Vec<[f64; 3]>>>,
+    #[expect(dead_code, reason = "kept so that the job goes on")]
+    job: Wanted,
 }
 
 impl Measures {
     pub(crate) fn is_measuring(&self) -> bool {
-        self.job.is_some()
+        self.running.is_some()
+    }
+
+    /// What is being measured.
+    pub(crate) fn measuring(&self) -> Option<Algorithm> {
+        self.running.as_ref().map(|running| running.algorithm)
+    }
+
+    /// The classifier that is being measured on a set and its learning curve so far, once there is something of it.
+    fn so_far(&self, set: &str) -> Option<(Algorithm, Vec<[f64; 3]>)> {
+        let running = self.running.as_ref().filter(|running| running.set == set)?;
+        let curve = running.curve.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        (!curve.is_empty()).then_some((running.algorithm, curve))
     }
 
     /// The rooms are others now.
@@ -106,7 +129,7 @@ impl Measures {
     }
 
     pub(crate) fn cancel(&mut self) {
-        self.job = None;
+        self.running = None;
     }
 }
 
@@ -142,10 +165,23 @@ impl Session {
             ChartKind::Scatter => rooms::scatter(&of, &rows, *across, *up),
             ChartKind::LearningCurve => {
                 let curve = |of: &Measured| (of.algorithm.learner().short_title().to_owned(), of.curve.clone());
-                rooms::learning_curves(&measured?.iter().map(curve).collect::<Vec<_>>())
+                let so_far = self.measures.so_far(set).map(|(of, curve)| {
+                    let name = format!("{} (so far)", of.learner().short_title());
+                    (name, curve)
+                });
+                let measured = measured.map(Vec::as_slice).unwrap_or_default().iter().map(curve);
+                let mut chart = rooms::learning_curves(&measured.chain(so_far.clone()).collect::<Vec<_>>());
+                // Also of one alone it is said that it goes on.
+                chart.has_legend |= so_far.is_some();
+                chart
             }
             ChartKind::ByBuilding => rooms::by_building(&measured?.last()?.buildings),
         })
+    }
+
+    /// Whether there is something to show of how classifiers tell the rooms of a set.
+    pub(crate) fn has_measured(&self, set: &str) -> bool {
+        self.measures.of_sets.get(set).is_some_and(|of| !of.is_empty()) || self.measures.so_far(set).is_some()
     }
 
     /// Asks where a chart goes.
@@ -158,12 +194,14 @@ impl Session {
     pub(crate) fn measure(&mut self, set: &str, algorithm: Algorithm) {
         let Some(at_hand) = self.at_hand.read.clone() else { return };
         let set = set.to_owned();
-        let kind = Kind::new(JOB).newest_of(JOB).if_broken(|session| session.measures.job = None);
+        let (of_set, curve) = (set.clone(), Arc::new(Mutex::new(Vec::new())));
+        let so_far = curve.clone();
+        let kind = Kind::new(JOB).newest_of(JOB).if_broken(|session| session.measures.running = None);
         let job = self.jobs.start_wanted(kind, move |work| {
             let work = work.on_threads(work.threads().saturating_sub(1));
-            let measured = measured(&at_hand, &set, algorithm, &work);
+            let measured = measured(&at_hand, &set, algorithm, &so_far, &work);
             move |session: &mut Session, _: &Context| {
-                session.measures.job = None;
+                session.measures.running = None;
                 match measured {
                     Ok(measured) => {
                         let of_set = session.measures.of_sets.entry(set).or_default();
@@ -176,12 +214,12 @@ impl Session {
                 }
             }
         });
-        self.measures.job = Some(job);
+        self.measures.running = Some(Running { set: of_set, algorithm, curve, job });
     }
 
-    /// How far measuring is.
-    pub(crate) fn measure_progress(&self) -> Option<(usize, usize)> {
-        self.jobs.progress().into_iter().find(|(name, _)| *name == JOB)?.1
+    /// The share of measuring that is done, 0..=1.
+    pub(crate) fn measure_progress(&self) -> f64 {
+        self.jobs.share_of(JOB)
     }
 
     /// Writes a chart as the file's ending says: PNG, SVG, or its data as CSV.
@@ -230,23 +268,36 @@ impl Session {
     }
 }
 
+/// The part of the progress until every building was left out once; the rest is the learning curve.
+pub(crate) const TESTING_SHARE: f64 = 0.5;
+
 /// Folds of the measurement.
 const FOLDS: usize = 10;
 
-fn measured(at_hand: &AtHand, set: &str, algorithm: Algorithm, work: &Work<'_>) -> Result<Measured, StudyError> {
+/// Measures; tells of the learning curve so far.
+fn measured(
+    at_hand: &AtHand,
+    set: &str,
+    algorithm: Algorithm,
+    so_far: &Mutex<Vec<[f64; 3]>>,
+    work: &Work<'_>,
+) -> Result<Measured, StudyError> {
     // As a new building is met, with a first guess at the neighbours' labels; a table holds the true ones.
     let modes = at_hand.collection.neighbour_modes();
     let neighbours = if modes.contains(&NeighbourLabels::Temporary) { NeighbourLabels::Temporary } else { modes[0] };
     let options = Options { folds: FOLDS, grouping: Grouping::Building, neighbours, ..Options::default() };
     let condition = Condition { by: Grouping::Building, neighbours };
-    let (cells, notes, said) = validate(&at_hand.collection, options, set, &[algorithm], &[condition], work)?;
+    let test = |work: &Work<'_>| validate(&at_hand.collection, options, set, &[algorithm], &[condition], work);
+    let (cells, notes, said) = work.within(0.0..TESTING_SHARE, test)?;
     let Some(cell) = cells.into_iter().next() else {
         let why = notes.into_iter().next().unwrap_or_else(|| "there are too few buildings".to_owned());
         return Err(StudyError::Data(why));
     };
-    let curve = learning_curve(&at_hand.collection, options, set, algorithm, work)?;
-    let point = |point: &crate::study::CurvePoint| [point.training_rooms, point.accuracy, point.deviation];
-    let curve = curve.map(|curve| curve.points.iter().map(point).collect()).unwrap_or_default();
+    let point = |point: &CurvePoint| [point.training_rooms, point.accuracy, point.deviation];
+    let points = |curve: Curve| curve.points.iter().map(point).collect::<Vec<_>>();
+    let told = |curve: Curve| *so_far.lock().unwrap_or_else(PoisonError::into_inner) = points(curve);
+    let learn = |work: &Work<'_>| learning_curve_telling(&at_hand.collection, options, set, algorithm, &told, work);
+    let curve = work.within(TESTING_SHARE..1.0, learn)?.map(points).unwrap_or_default();
     let mut buildings: BTreeMap<String, (usize, usize)> = BTreeMap::new();
     for it in said.iter().filter(|it| it.set == set) {
         let Some(row) = at_hand.rows.get(it.row) else { continue };

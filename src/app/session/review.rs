@@ -4,6 +4,7 @@
 //! plan is. What was decided is kept at once in a readable file beside the plans, so that the review goes on where it was left.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -32,6 +33,9 @@ use crate::store;
 
 /// The name of the job, by which its progress is found.
 const JOB: &str = "find the rooms to review";
+
+/// The part of the progress that reading the plans takes; judging their rooms takes longer.
+pub(crate) const READING_SHARE: f64 = 0.1;
 
 /// As the command line has it, so that both show the same queue.
 const FOLDS: usize = 10;
@@ -105,8 +109,8 @@ impl Progress {
 pub(crate) enum Shown<'a> {
     /// Nothing was asked for.
     Idle,
-    /// The plans are read and judged: how many of how many parts are done, where that is known.
-    Making(Option<(usize, usize)>),
+    /// The plans are read and judged: the share that is done, 0..=1.
+    Making(f64),
     Failed(&'a str),
     /// All rooms are decided, or there are none.
     Finished,
@@ -151,8 +155,7 @@ impl Session {
     pub(crate) fn review_shown(&self) -> Shown<'_> {
         let review = &self.review;
         if review.job.is_some() {
-            let progress = self.jobs.progress().into_iter().find(|(name, _)| *name == JOB);
-            return Shown::Making(progress.and_then(|(_, progress)| progress));
+            return Shown::Making(self.jobs.share_of(JOB));
         }
         match (&review.failure, &review.queue, review.current.and_then(|index| review.entry(index))) {
             (Some(failure), ..) => Shown::Failed(failure),
@@ -576,15 +579,20 @@ fn make(
     work: &Work<'_>,
 ) -> Result<Queue, String> {
     let cancelled = |_: Cancelled| "it was cancelled".to_owned();
-    let first = material(folder, files, open, schemes, work).map_err(cancelled)?;
+    let read = |folder: &Path, files: &[PathBuf], open: &_, shares: Range<f64>| {
+        work.within(shares, |work| material(folder, files, open, schemes, work)).map_err(cancelled)
+    };
+    let until = if other.is_some() { 0.5 } else { READING_SHARE };
+    let first = read(folder, files, open, 0.0..until)?;
     if first.networks().is_empty() {
         return Err("no plan of the folder could be read".to_owned());
     }
     let Some(other) = other else {
-        return queue(&first, schemes, &Models::bundled(), FOLDS, SEED, work).map_err(|error| error.to_string());
+        let judge = |work: &Work<'_>| queue(&first, schemes, &Models::bundled(), FOLDS, SEED, work);
+        return work.within(until..1.0, judge).map_err(|error| error.to_string());
     };
     let files = super::plan_list::plans_in(other, super::plan_list::Depth::All);
-    let second = material(other, &files, &BTreeMap::new(), schemes, work).map_err(cancelled)?;
+    let second = read(other, &files, &BTreeMap::new(), until..1.0)?;
     let names = |material: &Material| material.networks().iter().map(|of| of.file.clone()).collect::<Vec<_>>();
     let theirs = names(&second);
     if !names(&first).iter().any(|name| theirs.contains(name)) {

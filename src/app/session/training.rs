@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::ThreadId;
 
 use egui::Context;
 
@@ -12,7 +13,7 @@ use crate::app::session::jobs::{Kind, Wanted};
 use crate::app::session::messages::Severity;
 use crate::base::file_name::component;
 use crate::base::wording::count;
-use crate::base::work::Work;
+use crate::base::work::{Round, Work};
 use crate::classify::models::StoredModel;
 use crate::classify::{Method, Scores};
 use crate::dataset::folds::Grouping;
@@ -24,6 +25,9 @@ use crate::training::{self, Made, Order, TrainError, Watcher};
 
 /// The name of the job.
 const JOB: &str = "train models";
+
+/// What the progress of the whole job counts.
+const PARTS: usize = 1000;
 
 /// What is to be trained, as the form says it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -106,8 +110,16 @@ pub(crate) struct Live {
     /// Parts of this step that are done, and all.
     pub done: usize,
     pub count: usize,
-    /// The accuracy of each fold so far, by classifier.
+    /// The set that is validated, or was last.
+    pub set: String,
+    /// Its folds.
+    pub fold_count: usize,
+    /// The accuracy of each of its folds so far, by classifier.
     pub folds: Vec<(String, Vec<f64>)>,
+    /// The rounds so far of a net that is learning, or learned last.
+    pub rounds: Vec<Round>,
+    /// Where that net learns: others may beside it.
+    learns_on: Option<ThreadId>,
 }
 
 impl Live {
@@ -116,6 +128,18 @@ impl Live {
         let of_step = if self.count > 0 { self.done as f64 / self.count as f64 } else { 0.0 };
         let before = self.step_number.saturating_sub(1) as f64;
         ((before + of_step) / self.steps.max(1) as f64).clamp(0.0, 1.0)
+    }
+
+    /// Takes in a round. Of nets that learn beside each other one is followed.
+    fn hear(&mut self, round: Round) {
+        let here = std::thread::current().id();
+        if *self.learns_on.get_or_insert(here) != here {
+            return;
+        }
+        if round.round == 0 {
+            self.rounds.clear();
+        }
+        self.rounds.push(round);
     }
 }
 
@@ -189,15 +213,19 @@ impl Watcher for Teller<'_> {
             what.clone_into(&mut live.step);
             live.step_number += 1;
             live.steps = live.steps.max(live.step_number);
-            (live.done, live.count) = (0, 0);
+            (live.done, live.count, live.learns_on) = (0, 0, None);
         });
-        let live = &self.live;
+        let (live, whole) = (&self.live, &self.work);
         let progress = |done: usize, count: usize| {
+            let mut share = 0.0;
             with(live, |live| {
-                (live.done, live.count) = (if live.count == count { live.done.max(done) } else { done }, count)
+                (live.done, live.count) = (if live.count == count { live.done.max(done) } else { done }, count);
+                share = live.share();
             });
+            whole.tell((share * PARTS as f64) as usize, PARTS);
         };
-        step(&self.work.telling(&progress))
+        let rounds = |round: Round| with(live, |live| live.hear(round));
+        step(&self.work.telling(&progress).hearing(&rounds))
     }
 
     fn remark(&mut self, what: &str) -> Result<(), TrainError> {
@@ -210,8 +238,12 @@ impl Watcher for Teller<'_> {
         self.work.goes_on().map_err(Into::into)
     }
 
-    fn folds(&self) -> Arc<dyn Fn(FoldTold) + Send + Sync> {
+    fn folds(&self, set: &str) -> Arc<dyn Fn(FoldTold) + Send + Sync> {
         let live = self.live.clone();
+        with(&live, |live| {
+            set.clone_into(&mut live.set);
+            live.folds.clear();
+        });
         Arc::new(move |told: FoldTold| {
             let title = match told.method {
                 Method::Each(algorithm) => algorithm.learner().short_title(),
@@ -513,7 +545,7 @@ fn run(at_hand: &AtHand, wish: &Wish, path: &str, teller: &mut Teller<'_>) -> Re
     let each = methods.iter().filter(|method| matches!(method, Method::Each(_))).count();
     let validations = usize::from(each > 0) + usize::from(methods.contains(&Method::Joint));
     let steps = parts.len() * (methods.len() + if wish.folds > 0 { validations } else { 0 });
-    with(&teller.live, |live| live.steps = steps);
+    with(&teller.live, |live| (live.steps, live.fold_count) = (steps, wish.folds));
     let order = Order {
         method: wish.method,
         typology: wish.set.clone(),

@@ -21,11 +21,15 @@ use crate::app::session::jobs::{Kind, Wanted};
 use crate::app::session::messages::Severity;
 use crate::app::session::origin::{Origin, absolute};
 use crate::app::session::wishes::Wish;
+use crate::base::wording::thousands;
 use crate::base::work::{Cancelled, Work};
 use crate::plan::{ElementId, RoomId};
 use crate::store::IndexFile;
 use crate::workspace::index::{self, Listed, Recipe};
 use crate::workspace::{PlanFile, PlanKey, PlanRow, Workspace, path_below};
+
+/// The name of the jobs, by which the progress of the one that runs is found.
+const JOB: &str = "read the plans of a folder";
 
 /// So many files are read in one job, a thread: enough to be quick, few enough to see something soon.
 const READ_AT_ONCE: usize = 24;
@@ -78,9 +82,9 @@ impl Indexing {
         Self { step, done: 0, count: queue.len(), queue: queue.into() }
     }
 
-    /// In words: '120 of 2,000 plans read'.
-    pub(crate) fn words(&self) -> String {
-        let figures = format!("{} of {}", self.done, crate::base::wording::thousands(self.count as u64));
+    /// In words, with so many more done beside those taken in: '120 of 2,000 files read'.
+    fn words(&self, more: usize) -> String {
+        let figures = format!("{} of {}", thousands((self.done + more) as u64), thousands(self.count as u64));
         match self.step {
             Step::Listing => "Listing the folder".to_owned(),
             Step::Reading => format!("{figures} files read"),
@@ -185,11 +189,25 @@ impl Session {
         }
     }
 
+    /// How far what is being found out about the workspace is: the share that is done, 0..=1, and in words. `None` once
+    /// everything is known.
+    pub(crate) fn indexing_shown(&self) -> Option<(f64, String)> {
+        let indexing = self.workspace.as_ref()?.indexing.as_ref()?;
+        if indexing.step == Step::Listing {
+            return Some((0.0, indexing.words(0)));
+        }
+        // What the job that runs has done so far.
+        let of_job = self.jobs.progress().into_iter().find(|(name, _)| *name == JOB);
+        let more = of_job.and_then(|(_, progress)| progress).map_or(0, |(done, _)| done);
+        let more = more.min(indexing.count.saturating_sub(indexing.done));
+        Some(((indexing.done + more) as f64 / indexing.count.max(1) as f64, indexing.words(more)))
+    }
+
     fn start_indexing<O>(&mut self, job: impl FnOnce(&Work<'_>) -> O + Send + 'static)
     where
         O: FnOnce(&mut Session, &Context) + Send + 'static,
     {
-        let kind = Kind::new("read the plans of a folder").newest_of("workspace").if_broken(|session| {
+        let kind = Kind::new(JOB).newest_of("workspace").if_broken(|session| {
             if let Some(workspace) = &mut session.workspace {
                 (workspace.indexing, workspace.index) = (None, None);
             }
@@ -229,7 +247,7 @@ impl Session {
             *indexing = Indexing::begun(Step::Predicting, next);
         }
         let predicts = indexing.step == Step::Predicting;
-        let at_once = if predicts { PREDICTED_AT_ONCE } else { READ_AT_ONCE } * Work::quiet().threads();
+        let at_once = if predicts { PREDICTED_AT_ONCE } else { READ_AT_ONCE } * self.jobs.threads();
         let paths: Vec<Arc<str>> = indexing.queue.drain(..at_once.min(indexing.queue.len())).collect();
         let (now, recipe, index) = (workspace.now.clone(), workspace.recipe.clone(), workspace.index.clone());
         self.start_indexing(move |work| {

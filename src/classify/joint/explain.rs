@@ -192,8 +192,9 @@ impl Seen {
         }
     }
 
-    /// What is seen of a group of features, in words, and where.
-    fn of_group(&self, group: Group, first: Label, label: Label, units: Units) -> (String, OnPlan) {
+    /// What is seen of a group of features, in words, and where. `itself` is the label that the room has whatever the rooms around
+    /// it are, if that is worth saying.
+    fn of_group(&self, group: Group, itself: Option<Label>, units: Units) -> (String, OnPlan) {
         match group {
             Group::Size => (self.size(units), OnPlan::Area),
             Group::Form => {
@@ -228,8 +229,7 @@ impl Seen {
                     labels => format!("it opens to {}", and_list(labels)),
                 };
                 let opens = if self.are_against_given { opens + " (as predicted)" } else { opens };
-                let itself =
-                    if first == label { format!("it looks like a {label} by itself, and ") } else { String::new() };
+                let itself = itself.map(|label| format!("it looks like a {label} by itself, and ")).unwrap_or_default();
                 (itself + &opens, OnPlan::Rooms(self.joined.clone()))
             }
         }
@@ -342,7 +342,9 @@ impl JointExplanation {
         let gain = |without: &Distribution, of: Label| self.distribution.probability(of) - without.probability(of);
         let groups = self.groups.iter().filter_map(|effect| {
             let (speaks, change) = speaks(label, |of| gain(&effect.if_typical, of))?;
-            let (seen, on_plan) = self.seen.of_group(effect.group, first, label, units);
+            // Under a sign of another label it would contradict itself.
+            let itself = (first == label && speaks.label == label).then_some(label);
+            let (seen, on_plan) = self.seen.of_group(effect.group, itself, units);
             Some((Point { seen, speaks: Some(speaks), on_plan }, change))
         });
         let neighbours = self.neighbours.iter().filter_map(|effect| {

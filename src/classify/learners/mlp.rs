@@ -12,7 +12,7 @@ use serde_json::Value;
 
 use crate::base::numbers::lower_median;
 use crate::base::random::Random;
-use crate::base::work::{Cancelled, Work};
+use crate::base::work::{Cancelled, Round, Work};
 use crate::classify::Distribution;
 use crate::classify::calibration::fitted_temperature;
 use crate::classify::explain::{Effect, FeaturesReason, Reason};
@@ -228,9 +228,10 @@ impl Weights {
         Pass { given, slope, probabilities: softmax(scores) }
     }
 
-    /// Adds the gradient of one room's cross-entropy to `gradient`.
-    fn add_gradient(&self, inputs: &[f32; FEATURES], label: usize, gradient: &mut Self) {
+    /// Adds the gradient of one room's cross-entropy to `gradient`. Returns the cross-entropy.
+    fn add_gradient(&self, inputs: &[f32; FEATURES], label: usize, gradient: &mut Self) -> f64 {
         let Pass { given, slope, probabilities: mut error } = self.pass(inputs);
+        let loss = cross_entropy(error[label]);
         error[label] -= 1.0;
         let mut back = [0.0; HIDDEN];
         for (label, &error) in error.iter().enumerate() {
@@ -248,7 +249,13 @@ impl Weights {
                 *sum += input * back;
             }
         }
+        loss
     }
+}
+
+/// The cross-entropy of a room whose label has this probability.
+fn cross_entropy(probability: f32) -> f64 {
+    -f64::from(probability.max(1e-9)).ln()
 }
 
 /// Four sums side by side: one vector register.
@@ -339,16 +346,18 @@ impl Perceptron {
             work.goes_on()?;
             let step = STEP * 0.5 * (1.0 + (std::f32::consts::PI * round as f32 / rounds as f32).cos());
             random.shuffle(&mut learn);
+            let mut learned = 0.0;
             for rooms in learn.chunks(BATCH) {
                 let mut gradient = Weights::ZERO;
                 for &room in rooms {
-                    weights.add_gradient(&inputs[room], labels[room], &mut gradient);
+                    learned += weights.add_gradient(&inputs[room], labels[room], &mut gradient);
                 }
                 optimiser.step(&mut weights, &gradient, rooms.len(), step);
             }
-            let loss =
-                |&room: &usize| -f64::from(weights.pass(&inputs[room]).probabilities[labels[room]].max(1e-9)).ln();
+            let loss = |&room: &usize| cross_entropy(weights.pass(&inputs[room]).probabilities[labels[room]]);
             let loss: f64 = check.iter().map(loss).sum();
+            let held_out_loss = (!check.is_empty()).then(|| loss / check.len() as f64);
+            work.tell_round(Round { round, loss: learned / learn.len().max(1) as f64, held_out_loss });
             if loss < best.0 || check.is_empty() {
                 best = (loss, weights.clone(), round);
             } else if round - best.2 >= PATIENCE {
@@ -393,4 +402,38 @@ fn medians(rows: &[Values]) -> Values {
         let mut values: Vec<f64> = rows.iter().map(|row| row[feature]).collect();
         lower_median(&mut values).unwrap_or_default()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+    use std::sync::atomic::AtomicBool;
+
+    use super::*;
+    use crate::dataset::Row;
+    use crate::features::Features;
+
+    #[test]
+    fn who_hears_of_the_rounds_changes_nothing() {
+        let rows: Vec<Row> = (0..120u32)
+            .map(|it| {
+                let label = if it % 3 == 0 { Label::Corridor } else { Label::SmallRoom };
+                let area_m2 = f64::from(it % 17 + 3);
+                Row::new(
+                    label,
+                    Features { area_m2, axes_ratio: 1.0 + f64::from(it % 3), doors: it % 5, doors_to: [0; 5] },
+                )
+            })
+            .collect();
+        let table = Table::from_rows(&rows).unwrap();
+        let quiet = Perceptron::train(&table, 7, &Work::quiet()).unwrap();
+        let (heard, cancelled) = (Mutex::new(Vec::new()), AtomicBool::new(false));
+        let hear = |round: Round| heard.lock().unwrap().push(round);
+        let work = Work::quiet().watched(&|_, _| {}, &cancelled).hearing(&hear);
+        let watched = Perceptron::train(&table, 7, &work).unwrap();
+        assert_eq!((watched.model, watched.temperature), (quiet.model, quiet.temperature));
+        let rounds = heard.into_inner().unwrap();
+        assert!(rounds.iter().enumerate().all(|(at, it)| it.round == at && it.held_out_loss.is_some()), "{rounds:?}");
+        assert!(rounds.len() >= *ROUNDS.start() && rounds[rounds.len() - 1].loss < 0.5 * rounds[0].loss, "{rounds:?}");
+    }
 }

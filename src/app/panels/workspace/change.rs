@@ -82,6 +82,7 @@ impl Form {
         }
         let schemes = app.session.schemes.clone();
         let is_empty = workspace.view.selected.is_empty();
+        let is_writing = app.session.changing_shown().is_some();
         let mut wanted = None;
         ui.horizontal(|ui| {
             caption(ui, "Change");
@@ -163,7 +164,7 @@ impl Form {
             right(ui, |ui| {
                 let thing = if change.is_of_plans() { "plan" } else { "room" };
                 let title = if number > 0 { format!("Change {}", count(number, thing)) } else { "Change".to_owned() };
-                if ui.add_enabled_ui(number > 0, |ui| text_button(ui, &title, false)).inner.clicked() {
+                if ui.add_enabled_ui(number > 0 && !is_writing, |ui| text_button(ui, &title, false)).inner.clicked() {
                     wanted = Some(change.clone());
                 }
                 ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {

@@ -3,7 +3,8 @@
 use super::{Group, Verb};
 use crate::app::offscreen::OffscreenOptions;
 use crate::app::replay::fault::Fault;
-use crate::app::replay::words::{Words, number, told, written};
+use crate::app::replay::stage::Stage;
+use crate::app::replay::words::{Words, in_quotes, number, told, written};
 
 pub(super) const GROUP: Group = Group {
     title: "Window and time",
@@ -91,8 +92,50 @@ pub(super) const GROUP: Group = Group {
                 }))
             },
         },
+        Verb {
+            name: "stop-job",
+            form: "stop-job NAME PERCENT [N]",
+            help: "The next job in the background of this name stops when so much of it is done, 0 before it begins; or the \
+                   Nth from here. To see the window while it works: `stop-job \"train models\" 40`.",
+            parse: |words| {
+                let name = words.text("the name of the job")?.to_owned();
+                let percent = percent(words)?;
+                let number = if words.is_empty() { 1 } else { words.number("which of them", 1.0, 1000.0)? as usize };
+                Ok(Box::new(move |stage| {
+                    if let Some(waiting) = stage.window.job_to_stop() {
+                        let what = format!("the job {} was to stop and has not started", in_quotes(waiting));
+                        return Err(Fault::new(what).hint(job_hint(stage)));
+                    }
+                    stage.window.stop_job(&name, percent, number - 1);
+                    Ok(())
+                }))
+            },
+        },
+        Verb {
+            name: "let-jobs-go",
+            form: "let-jobs-go [PERCENT]",
+            help: "The jobs that stopped go on until so much of them is done, or to their ends.",
+            parse: |words| {
+                let percent = if words.is_empty() { None } else { Some(percent(words)?) };
+                Ok(Box::new(move |stage| match stage.window.let_jobs_go(percent) {
+                    0 => Err(Fault::new("no job has stopped").hint(job_hint(stage))),
+                    _ => Ok(()),
+                }))
+            },
+        },
     ],
 };
+
+/// How much of a job is done.
+fn percent(words: &mut Words<'_>) -> Result<usize, String> {
+    Ok(words.number("how much of it is done, in percent", 0.0, 100.0)? as usize)
+}
+
+/// Which jobs could stop.
+fn job_hint(stage: &Stage<'_>) -> String {
+    let names: Vec<String> = stage.window.job_names().into_iter().map(in_quotes).collect();
+    format!("these have started so far: {}", names.join(", "))
+}
 
 /// The size of a window, in logical pixels.
 pub(super) fn size(words: &mut Words<'_>) -> Result<(u32, u32), String> {

@@ -32,6 +32,10 @@ struct Written {
     failed: Vec<String>,
 }
 
+/// The names of the jobs, by which their progress is found.
+const CHANGE: &str = "change plans";
+const PUT_BACK: &str = "put plans back";
+
 /// So many files are named in a message.
 const NAMED: usize = 5;
 
@@ -72,7 +76,7 @@ impl Session {
             }
         }
         let change = change.clone();
-        let kind = Kind::new("change plans").must_end();
+        let kind = Kind::new(CHANGE).must_end();
         self.jobs.start(kind, move |work| {
             let mut written = write(&files, &change, work);
             written.changed.said = said;
@@ -80,6 +84,15 @@ impl Session {
             move |session: &mut Session, _: &Context| session.workspace_was_changed(written, &opened)
         });
         Ok(())
+    }
+
+    /// How far writing many files is: the share that is done, 0..=1, and in words. `None` where none are being written.
+    pub(crate) fn changing_shown(&self) -> Option<(f64, String)> {
+        let running = self.jobs.progress().into_iter().find(|(name, _)| [CHANGE, PUT_BACK].contains(name));
+        let (done, all) = running?.1.unwrap_or_default();
+        let said =
+            if all == 0 { "Writing files".to_owned() } else { format!("{done} of {} written", count(all, "file")) };
+        Some((done as f64 / all.max(1) as f64, said))
     }
 
     fn workspace_was_changed(&mut self, Written { changed, failed }: Written, opened: &[String]) {
@@ -113,7 +126,7 @@ impl Session {
         let changed = self.workspace.as_mut().and_then(|workspace| workspace.changed.take());
         let Some(changed) = changed else { return Err("no files were changed".to_owned()) };
         self.messages.retain(|message| message.text != changed.said);
-        self.jobs.start(Kind::new("put plans back").must_end(), move |work| {
+        self.jobs.start(Kind::new(PUT_BACK).must_end(), move |work| {
             let files: Vec<(PathBuf, (Vec<u8>, Stamp))> = changed.files.into_iter().collect();
             let put_back = |at: usize| -> Result<(), String> {
                 let (path, (bytes, stamp)) = &files[at];

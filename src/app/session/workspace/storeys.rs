@@ -10,6 +10,7 @@ use crate::base::natural_order::NaturalKey;
 use crate::edit::storey;
 use crate::formats::{self, building_name};
 use crate::geometry::Point;
+use crate::plan::storeys::level_key;
 use crate::topology::vertical::{self, CommonPoints};
 use crate::workspace::buildings;
 
@@ -76,7 +77,7 @@ impl Session {
             .filter(|(name, _)| !name.storey.is_empty() && building_name::key(&name.building) == key)
             .map(|(name, file)| (name.storey, file))
             .collect();
-        storeys.sort_by_cached_key(|(storey, _)| (buildings::level_key(storey), NaturalKey::of(storey)));
+        storeys.sort_by_cached_key(|(storey, _)| (level_key(storey), NaturalKey::of(storey)));
         Some(storeys.into_iter().map(|(title, path)| (Origin::File { path: path.clone(), storey: 0 }, title)).collect())
     }
 
