@@ -2,8 +2,8 @@
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock};
 
 /// How to run work: on how many threads, and who watches and may cancel it.
 #[derive(Clone, Copy)]
@@ -46,7 +46,9 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 impl Work<'static> {
     /// Unwatched work, on as many threads as the machine has processors.
     pub fn quiet() -> Self {
-        let threads = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        // Asked once: the answer takes a tenth of a millisecond, since it is read from files.
+        static THREADS: OnceLock<usize> = OnceLock::new();
+        let threads = *THREADS.get_or_init(|| std::thread::available_parallelism().map_or(1, NonZeroUsize::get));
         Self { threads, progress: &|_, _| {}, rounds: &|_| {}, cancelled: &NEVER }
     }
 }

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-use crate::base::natural_order::NaturalKey;
+use crate::base::natural_order;
 use crate::base::wording::sentence;
 use crate::labels::function_title;
 use crate::plan::{ElementId, Opening, OpeningId, OpeningKind, Plan, Room, RoomId, WallId};
@@ -57,7 +57,7 @@ pub fn room_keys(plan: &Plan) -> Vec<(RoomId, String)> {
             (id, key)
         })
         .collect();
-    keys.sort_by_cached_key(|(id, key)| (NaturalKey::of(key), *id));
+    keys.sort_by(|(p, key), (q, other)| natural_order::compare(key, other).then(p.cmp(q)));
     keys
 }
 

@@ -301,10 +301,13 @@ fn tell_apart(column: &[f32], at_most: f32, rooms: &[u32], into: &mut [u32]) -> 
 
 /// The results for ranges of so many rooms, in order; worked out on all threads where that is worth starting them.
 fn in_parts<T: Send>(rooms: usize, part: impl Fn(Range<usize>) -> T + Sync) -> Vec<T> {
+    if rooms == 0 {
+        return Vec::new();
+    }
     let work = Work::quiet();
     let threads = work.threads().min(rooms / WORTH_A_THREAD).max(1);
     let parts = rooms.div_ceil(MOST_TOGETHER).next_multiple_of(threads);
-    let of_each = rooms.div_ceil(parts.max(1)).max(1);
+    let of_each = rooms.div_ceil(parts);
     let of_part = |part: usize| part * of_each..((part + 1) * of_each).min(rooms);
     // Nobody cancels it.
     work.on_threads(threads).map(rooms.div_ceil(of_each), |at| part(of_part(at))).unwrap_or_default()
