@@ -31,6 +31,14 @@ pub fn percent_done(share: f64) -> String {
     format!("{:.0} %", (100.0 * share).floor().clamp(0.0, 100.0))
 }
 
+/// A text in which no line begins with the unit of a number.
+pub fn unbroken(text: &str) -> String {
+    [" %", " m²", " ft²"].iter().fold(text.to_owned(), |text, unit| {
+        let kept = unit.replace(' ', "\u{a0}");
+        text.replace(unit, &kept)
+    })
+}
+
 /// The known words most similar to a misspelt one, closest first.
 pub fn similar<'a>(wrong: &str, words: impl Iterator<Item = &'a str>, most: usize) -> Vec<&'a str> {
     // Below this, two words have hardly more in common than any two.

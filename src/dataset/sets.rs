@@ -9,3 +9,8 @@ pub const STANDARD: &str = "standard";
 pub fn set_name(typology: Option<&Typology>) -> &str {
     typology.map_or(STANDARD, Typology::as_str)
 }
+
+/// A set's plans, in words: 'school plans'.
+pub fn plans_of(set: &str) -> String {
+    if set == STANDARD { "plans of any kind".to_owned() } else { format!("{set} plans") }
+}

@@ -150,7 +150,7 @@ const UNLIKE: f64 = 0.2;
 const DOUBTFUL: f64 = 0.5;
 
 /// The order in which the labelled rooms of plans are best looked at. `models` are asked where a typology has too few rooms to
-/// learn from. The same plans give the same queue, in whatever order their files were read. Progress counts folds.
+/// learn from. The same plans give the same queue, in whatever order their files were read.
 ///
 /// # Errors
 /// When no room has a label, or the work is cancelled.

@@ -13,7 +13,7 @@ use crate::classify::model_file::{self, About, DataSummary, ScoreSummary};
 use crate::classify::models::StoredModel;
 use crate::classify::{Algorithm, Classifier, Method, PlanClassifier, Scores, blend, in_plan, joint::Joint};
 use crate::dataset::folds::Grouping;
-use crate::dataset::sets::{STANDARD, set_name};
+use crate::dataset::sets::{STANDARD, plans_of, set_name};
 use crate::dataset::table::Table;
 use crate::dataset::{Collection, RoomNetwork, Row};
 use crate::features::NeighbourLabels;
@@ -100,7 +100,7 @@ impl Made {
 pub trait Watcher {
     type Error: From<TrainError>;
 
-    /// Runs a step, given in words ('validating school'), with progress and whether to go on.
+    /// Runs a step, given in words ('testing on school plans'), with progress and whether to go on.
     fn step<T>(&mut self, what: &str, step: impl FnOnce(&Work<'_>) -> T) -> T;
 
     /// Hears what could not be done, which does not end the training.
@@ -282,7 +282,7 @@ fn classifier<W: Watcher>(
         };
         Ok((classifier, DataSummary::of(&rows, &table)))
     };
-    Ok(watcher.step(&format!("training {set}, {method}"), learn)?)
+    Ok(watcher.step(&format!("training on {}: {}", plans_of(set), method.title()), learn)?)
 }
 
 impl Order {

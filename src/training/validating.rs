@@ -7,7 +7,7 @@ use crate::base::work::Cancelled;
 use crate::classify::joint::{self, JointTrainError, JointValidationError};
 use crate::classify::{Algorithm, Method, Scores};
 use crate::dataset::folds::{Folds, Grouping};
-use crate::dataset::sets::set_name;
+use crate::dataset::sets::{plans_of, set_name};
 use crate::dataset::{Collection, RoomNetwork};
 use crate::features::NeighbourLabels;
 use crate::study::predictions::Prediction;
@@ -50,7 +50,7 @@ pub(super) fn validated<W: Watcher>(
         // A single typology makes a set with its own name, never a standard one.
         let typologies = part.typologies();
         let of_part = if typologies.len() == 1 { set_name(typologies.first()).to_owned() } else { set.to_owned() };
-        let result = watcher.step(&format!("validating {set}"), |work| {
+        let result = watcher.step(&format!("testing on {}", plans_of(set)), |work| {
             validate_telling(part, options, &of_part, &algorithms, &conditions, &*told, work)
         });
         match result {
@@ -72,7 +72,7 @@ pub(super) fn validated<W: Watcher>(
         let networks: Vec<&RoomNetwork> = part.networks().iter().collect();
         let condition = Condition { by: Grouping::Building, neighbours: NeighbourLabels::Predicted };
         let hear = |score| told(FoldTold { method: Method::Joint, condition, score });
-        let result = watcher.step(&format!("validating {set}, joint"), |work| {
+        let result = watcher.step(&format!("testing on {}: {}", plans_of(set), Method::Joint.title()), |work| {
             let given = part.given_folds().filter(|_| order.given == Some(Grouping::Building));
             let folds = match given {
                 Some(folds) => Folds::given(folds).map_err(JointValidationError::Folds)?,

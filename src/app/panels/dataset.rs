@@ -85,9 +85,9 @@ impl Dataset {
             ui,
             format!(
                 "One row for each labelled room of the {}{folder}: where it is from, its features and its label. \
-                 Plans are read as they are saved. A room that is in two files counts once. Beside the table go a \
-                 schema of its columns and a manifest of how it was made.",
-                count(plans, "plan")
+                 Plans are read as they are saved. A room that is in two files counts once. Beside the table go \
+                 the ways between the rooms, what the columns mean, and a manifest of how it was made.",
+                if plans == 1 { "plan".to_owned() } else { count(plans, "plan") }
             ),
         );
         ui.add_space(10.0);

@@ -7,7 +7,7 @@ use egui::{Align2, Color32, FontId, Rect, Role, Sense, Stroke, Ui, WidgetInfo, p
 use crate::app::look::theme;
 use crate::app::look::widgets::{caption, colours, focus_ring, follow_focus};
 use crate::base::units::Units;
-use crate::base::wording::sentence;
+use crate::base::wording::{sentence, unbroken};
 use crate::classify::explain::NearRoom;
 use crate::classify::why::{Point, Why};
 use crate::draw::Palette;
@@ -103,7 +103,7 @@ pub(super) fn nearest(ui: &mut Ui, palette: &Palette, own: &Features, near: &[Ne
 fn point(ui: &mut Ui, title: &str, point: &Point) -> bool {
     let colours = colours(ui);
     let format = TextFormat::simple(FontId::proportional(theme::BODY), colours.text);
-    let mut job = LayoutJob::single_section(sentence(&point.seen), format);
+    let mut job = LayoutJob::single_section(unbroken(&sentence(&point.seen)), format);
     job.wrap.max_width = ui.available_width() - INDENT;
     let galley = ui.painter().layout_job(job);
     let size = vec2(ui.available_width(), galley.size().y + 2.0 * GAP);

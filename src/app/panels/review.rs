@@ -12,7 +12,7 @@ use crate::app::panels::prediction::bar;
 use crate::app::session::review::{Progress, READING_SHARE, Shown};
 use crate::app::state::{App, Height, Side, SidePanel, panels};
 use crate::app::value::{Call, Value};
-use crate::base::wording::{count, percent_done, sentence, shortened};
+use crate::base::wording::{count, percent_done, sentence, shortened, unbroken};
 use crate::labels::Label as RoomLabel;
 use crate::plan::titles::printable;
 use crate::review::{Entry, Reason};
@@ -80,7 +80,7 @@ fn show(app: &mut App, ui: &mut Ui) {
 /// Text in the usual size that wraps.
 fn text(ui: &mut Ui, text: impl Into<String>) {
     let colour = colours(ui).text;
-    ui.add(Label::new(RichText::new(text).color(colour)).wrap());
+    ui.add(Label::new(RichText::new(unbroken(&text.into())).color(colour)).wrap());
 }
 
 /// How far the review is: accepted and corrected rooms of all.

@@ -22,7 +22,7 @@ use crate::base::wording::{count, percent_done, sentence};
 use crate::chart::{Chart, rooms};
 use crate::classify::{Algorithm, Method, Scores};
 use crate::dataset::folds::Grouping;
-use crate::dataset::sets::STANDARD;
+use crate::dataset::sets::{STANDARD, plans_of};
 use crate::draw::Palette;
 use crate::features::NeighbourLabels;
 use crate::labels::Label;
@@ -331,7 +331,7 @@ impl Training {
         caption(ui, left);
         ui.add_space(4.0);
         let palette = app.session.palette(ui);
-        let folds = rooms::folds(&live.folds, &of_set(&live.set), live.fold_count);
+        let folds = rooms::folds(&live.folds, &plans_of(&live.set), live.fold_count);
         let rounds = rooms::rounds(&live.rounds);
         let charts: Vec<&Chart> = [&folds, &rounds].into_iter().filter(|chart| !chart.is_empty()).collect();
         if charts.is_empty() {
@@ -430,7 +430,7 @@ impl Training {
             });
         });
         line(ui, NAMES, "", |ui| {
-            let sets: Vec<String> = app.session.chosen_defaults().into_iter().map(|(set, _)| of_set(&set)).collect();
+            let sets: Vec<String> = app.session.chosen_defaults().into_iter().map(|(set, _)| plans_of(&set)).collect();
             let it = if reports.len() > 1 { "them" } else { "it" };
             let title = format!("Predict {} with {it} from now on", and_words(&sets));
             if toggle(ui, &title, self.as_default).clicked() {
@@ -481,11 +481,6 @@ fn is_without_models(app: &App, set: &str) -> bool {
     app.session.models.find(set, Method::Blend).is_err() && app.session.models.default_of(set).is_none()
 }
 
-/// A set's plans, in words.
-fn of_set(set: &str) -> String {
-    if set == STANDARD { "plans of any kind".to_owned() } else { format!("{set} plans") }
-}
-
 /// Several things: 'a, b and c'.
 fn and_words(things: &[String]) -> String {
     match things {
@@ -519,7 +514,7 @@ fn models(ui: &mut Ui, reports: &[Report], picked: &mut usize) {
             let (_, accuracy, _) = before.figures.iter().find(|(of, ..)| of == by.name())?;
             Some(format!("{:.1} %", 100.0 * accuracy))
         });
-        let name = format!("{} – {}", sentence(&of_set(&report.set)), report.method.title());
+        let name = format!("{} – {}", sentence(&plans_of(&report.set)), report.method.title());
         let cells = [
             name.clone(),
             accuracy(Grouping::Building),

@@ -287,7 +287,8 @@ impl Jobs {
 
     /// The gate of a job that starts now, if it is the one that is to stop.
     fn gate_of(&mut self, name: &str) -> Option<Gate> {
-        let wanted = self.stop_at.as_mut().filter(|wanted| wanted.name == name)?;
+        let is_inline = matches!(self.mode, Mode::Inline);
+        let wanted = self.stop_at.as_mut().filter(|wanted| is_inline && wanted.name == name)?;
         if wanted.passing > 0 {
             wanted.passing -= 1;
             return None;

@@ -102,7 +102,7 @@ impl Wish {
 /// How far a training is.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Live {
-    /// What is being done: 'validating school'.
+    /// What is being done: 'testing on school plans'.
     pub step: String,
     /// The number of this step from 1, and of all.
     pub step_number: usize,
