@@ -23,7 +23,7 @@ use crate::features::{Features, NeighbourLabels};
 use crate::labels::Label;
 use crate::store;
 use crate::study::paper::PaperFigures;
-use crate::study::{Condition, Options, StudyError, learning_curve, validate};
+use crate::study::{Condition, Options, StudyError, Validation, learning_curve, validate};
 
 /// The name of the job, by which its progress is found.
 const JOB: &str = "measure classifiers";
@@ -239,7 +239,8 @@ fn measured(at_hand: &AtHand, set: &str, algorithm: Algorithm, work: &Work<'_>) 
     let neighbours = if modes.contains(&NeighbourLabels::Temporary) { NeighbourLabels::Temporary } else { modes[0] };
     let options = Options { folds: FOLDS, grouping: Grouping::Building, neighbours, ..Options::default() };
     let condition = Condition { by: Grouping::Building, neighbours };
-    let (cells, notes, said) = validate(&at_hand.collection, options, set, &[algorithm], &[condition], work)?;
+    let Validation { cells, notes, predictions: said, .. } =
+        validate(&at_hand.collection, options, set, &[algorithm], &[condition], work)?;
     let Some(cell) = cells.into_iter().next() else {
         let why = notes.into_iter().next().unwrap_or_else(|| "there are too few buildings".to_owned());
         return Err(StudyError::Data(why));
