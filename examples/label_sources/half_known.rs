@@ -9,12 +9,12 @@ use enfilade::classify::blend::recipe;
 use enfilade::classify::given::Given;
 use enfilade::classify::joint::Joint;
 use enfilade::classify::models::Models;
-use enfilade::classify::{Algorithm, Classifier, Distribution, Method, PlanClassifier};
+use enfilade::classify::{Distribution, Method, PlanClassifier};
 use enfilade::dataset::RoomNetwork;
 use enfilade::dataset::sets::STANDARD;
 use enfilade::labels::Label;
 
-use super::{Options, classify, folds, table};
+use super::{Options, classify, committee_of, folds};
 
 /// Random halves of each plan.
 const HALVES: usize = 5;
@@ -56,8 +56,7 @@ pub fn print(
         for (set, (name, networks)) in own.iter().enumerate() {
             let taught = taught(set);
             let of_own = Joint::train_altered(&taught, &options.alterations, seed, &work)?;
-            let rows = table(&taught.into_iter().cloned().collect::<Vec<_>>(), seed)?;
-            let perceptron = Classifier::train(Algorithm::PERCEPTRON, &rows, seed, &work)?;
+            let perceptrons = committee_of(&taught.into_iter().cloned().collect::<Vec<_>>(), seed)?;
             for (index, network) in networks.iter().enumerate().filter(|(index, _)| fold_of[set][*index] == fold) {
                 let (mut said, mut weights) = (Vec::new(), Vec::new());
                 for (of, method, weight) in recipe(name) {
@@ -65,7 +64,7 @@ pub fn print(
                     said.push(match method {
                         Method::Joint if of == STANDARD => of_all.predict(network, &[]),
                         Method::Joint => of_own.predict(network, &[]),
-                        _ => classify(&perceptron, network, &[]),
+                        _ => classify(&perceptrons, network, &[]),
                     });
                 }
                 let means: Vec<Distribution> = (0..network.rooms.len())

@@ -5,7 +5,7 @@
 //!     cargo run --release --example label_sources -- [--seed 1] [--folds 4] [--copies 3 --as-drawn 0.5 --scale 0.15 --left-out 0.4]
 //!         [--perceptron] [--only source|building|given|typology] DATA > said.csv
 //!
-//! `--perceptron` adds single perceptrons (`mlp`), and the mean of ten that each learned from half of the buildings (`committee`).
+//! `--perceptron` adds single perceptrons (`mlp`), and the committee of them that takes part in the blend.
 //!
 //! DATA is the folder of real plans, with `authors/school`, `authors/office`, `houses/r2v`, `houses/archilyse` and `kth`.
 
@@ -22,7 +22,7 @@ use enfilade::base::random::{Random, seed_of_part};
 use enfilade::base::work::Work;
 use enfilade::classify::joint::{Alterations, Joint};
 use enfilade::classify::typology::{TypologyModel, cross_validate};
-use enfilade::classify::{Algorithm, Classifier, Distribution, in_plan};
+use enfilade::classify::{Algorithm, Classifier, Distribution, committee, in_plan};
 use enfilade::dataset::folds::{Folds, Grouping};
 use enfilade::dataset::table::Table;
 use enfilade::dataset::{Collection, RoomNetwork};
@@ -178,12 +178,12 @@ fn by_source(
         for (taught, one, together) in [(&own[2].1, "mlp", "committee"), (&everything, "mlp-all", "committee-all")] {
             let table = table(taught, options.seed)?;
             let single = Classifier::train(Algorithm::PERCEPTRON, &table, options.seed, &work)?;
-            let several = committee(taught, options.seed)?;
+            let several = committee_of(taught, options.seed)?;
             for (set, tested) in [("swiss", swiss), ("flats", &flats), ("kth", kth)] {
                 for (plan, network) in tested.iter().enumerate() {
                     tell("source", set, plan, network, one, options.seed, &|known| classify(&single, network, known))?;
                     tell("source", set, plan, network, together, options.seed, &|known| {
-                        classify_together(&several, network, known)
+                        classify(&several, network, known)
                     })?;
                 }
             }
@@ -210,32 +210,14 @@ fn table(networks: &[RoomNetwork], seed: u64) -> Result<Table, Box<dyn Error>> {
     Ok(Table::from_rows(&rows)?)
 }
 
-/// Perceptrons that each learned from a random half of the buildings, as a committee is made of.
-fn committee(networks: &[RoomNetwork], seed: u64) -> Result<Vec<Classifier>, Box<dyn Error>> {
-    let mut buildings: Vec<&str> = networks.iter().map(|network| network.group.as_str()).collect();
-    buildings.sort_unstable();
-    buildings.dedup();
-    let mut members = Vec::new();
-    for member in 0..MEMBERS {
-        let seed = seed_of_part(seed, member);
-        let mut half = buildings.clone();
-        Random::new(seed).shuffle(&mut half);
-        half.truncate(buildings.len().div_ceil(2));
-        let taught: Vec<RoomNetwork> =
-            networks.iter().filter(|network| half.contains(&network.group.as_str())).cloned().collect();
-        members.push(Classifier::train(Algorithm::PERCEPTRON, &table(&taught, seed)?, seed, &Work::quiet())?);
-    }
-    Ok(members)
-}
-
-/// Perceptrons of a committee.
-const MEMBERS: usize = 10;
-
-/// The mean of what several classifiers say.
-fn classify_together(by: &[Classifier], network: &RoomNetwork, known: &[Option<Label>]) -> Vec<Distribution> {
-    let said: Vec<Vec<Distribution>> = by.iter().map(|by| classify(by, network, known)).collect();
-    let of_room = |room: usize| said.iter().map(|of| of[room]).collect::<Vec<_>>();
-    (0..network.rooms.len()).map(|room| Distribution::mean(&of_room(room), &vec![1.0; by.len()])).collect()
+/// The committee of perceptrons that takes part in the blend.
+fn committee_of(networks: &[RoomNetwork], seed: u64) -> Result<Classifier, Box<dyn Error>> {
+    let collection = Collection::Plans(networks.to_vec());
+    let rows = collection.rows(NeighbourLabels::Predicted).unwrap_or_default();
+    let all: Vec<usize> = (0..rows.len()).collect();
+    let places = collection.places();
+    let trained = committee::train(networks, &rows, &places, &all, seed, &Work::quiet())?;
+    trained.ok_or_else(|| "there are no labelled rooms to learn from".into())
 }
 
 fn classify(by: &Classifier, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<Distribution> {
@@ -260,8 +242,9 @@ fn by_building(own: &[(&str, Vec<RoomNetwork>)], options: &Options) -> Result<()
             let taught: Vec<RoomNetwork> = split(set, false).into_iter().cloned().collect();
             let perceptrons = match options.perceptron {
                 true => {
-                    let single = Classifier::train(Algorithm::PERCEPTRON, &table(&taught, seed)?, seed, &work)?;
-                    vec![("mlp", vec![single]), ("committee", committee(&taught, seed)?)]
+                    let table = table(&taught, seed)?;
+                    let single = Classifier::train(Algorithm::PERCEPTRON, &table, seed, &work)?;
+                    vec![("mlp", single), ("committee", committee_of(&taught, seed)?)]
                 }
                 false => Vec::new(),
             };
@@ -270,9 +253,7 @@ fn by_building(own: &[(&str, Vec<RoomNetwork>)], options: &Options) -> Result<()
                     tell("building", name, index, network, "own", seed, &|known| of_own.predict(network, known))?;
                     tell("building", name, index, network, "all", seed, &|known| of_all.predict(network, known))?;
                     for (part, by) in &perceptrons {
-                        tell("building", name, index, network, part, seed, &|known| {
-                            classify_together(by, network, known)
-                        })?;
+                        tell("building", name, index, network, part, seed, &|known| classify(by, network, known))?;
                     }
                 }
             }

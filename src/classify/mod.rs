@@ -3,6 +3,7 @@
 pub mod blend;
 pub mod calibration;
 mod classifier;
+pub mod committee;
 pub mod condition;
 mod distribution;
 mod evaluate;

@@ -44,6 +44,11 @@ impl Transform {
 const LIGHT_RATIO: f64 = 0.25;
 
 impl Transform {
+    /// The features of a room under this transform.
+    pub fn of(self, values: &Values) -> Values {
+        std::array::from_fn(|feature| self.apply(feature, values[feature]))
+    }
+
     /// What a feature weighs in distances.
     fn weight(self, feature: usize) -> f64 {
         if self == Self::LightRatio && feature == 1 { LIGHT_RATIO } else { 1.0 }
@@ -87,9 +92,13 @@ impl Scale {
 
     /// The standardised values of a room; 0 (the mean) for NaN.
     pub fn apply(&self, values: &Values) -> [f32; FEATURES] {
+        self.standardised(&self.transform.of(values))
+    }
+
+    /// The standardised values of a room whose features were transformed already; 0 for NaN.
+    pub fn standardised(&self, transformed: &Values) -> [f32; FEATURES] {
         std::array::from_fn(|feature| {
-            let value = self.transform.apply(feature, values[feature]);
-            let standard = (value - self.means[feature]) / self.deviations[feature];
+            let standard = (transformed[feature] - self.means[feature]) / self.deviations[feature];
             if standard.is_nan() {
                 0.0
             } else {

@@ -162,16 +162,32 @@ impl Experiment<'_> {
         predictions
     }
 
+    /// What the committees that take part in blends said of each room out of fold.
+    pub(super) fn by_committees(&self, results: &Results) -> Vec<Prediction> {
+        let of_set = |(at, set): (usize, &SetRows)| {
+            let told = results.by_committee(at).into_iter();
+            let predictions = told.map(|(fold, row, said)| Prediction {
+                row,
+                set: set.name.clone(),
+                method: Method::Each(Algorithm::PERCEPTRON),
+                condition: HONEST,
+                fold,
+                said: *said,
+            });
+            predictions.collect::<Vec<_>>()
+        };
+        self.sets.iter().enumerate().flat_map(of_set).collect()
+    }
+
     /// What the blend says of a set's rooms, where no building and no label is known: the mean of what its parts said, those
     /// of the set and the standard ones.
     fn blended(&self, results: &Results, set: usize) -> Vec<Said> {
-        let Some(at) = self.conditions().iter().position(|condition| *condition == HONEST) else { return Vec::new() };
         let rows = &self.sets[set].rows;
         let (mut parts, mut folds) = (Vec::new(), Vec::new());
         for (of, method, weight) in recipe(&self.sets[set].name) {
             let Some(of) = self.sets.iter().position(|other| other.name == of) else { continue };
             let told = match method {
-                Method::Each(algorithm) => results.folds(at, of, algorithm),
+                Method::Each(_) => results.by_committee(of),
                 Method::Joint => results.jointly(of),
                 Method::Blend => Vec::new(),
             };
@@ -394,12 +410,26 @@ impl Results {
 
     /// The joint classifier's predictions on a set: fold, row, distribution.
     fn jointly(&self, wanted: usize) -> Vec<(usize, usize, &Distribution)> {
+        self.by_folds(|task| match *task {
+            Task::Joint { set, fold } if set == wanted => Some(fold),
+            _ => None,
+        })
+    }
+
+    /// The predictions of the committee that takes part in the blend.
+    fn by_committee(&self, wanted: usize) -> Vec<(usize, usize, &Distribution)> {
+        self.by_folds(|task| match *task {
+            Task::Committee { set, fold } if set == wanted => Some(fold),
+            _ => None,
+        })
+    }
+
+    /// The predictions of the tasks that test a fold.
+    fn by_folds(&self, fold_of: impl Fn(&Task) -> Option<usize>) -> Vec<(usize, usize, &Distribution)> {
         let mut predictions = Vec::new();
         for (task, outcome) in &self.0 {
-            if let (Task::Joint { set, fold }, Outcome::Predicted(rows, _)) = (task, outcome)
-                && *set == wanted
-            {
-                predictions.extend(rows.iter().map(|(row, said)| (*fold, *row, said)));
+            if let (Some(fold), Outcome::Predicted(rows, _)) = (fold_of(task), outcome) {
+                predictions.extend(rows.iter().map(|(row, said)| (fold, *row, said)));
             }
         }
         predictions

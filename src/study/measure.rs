@@ -3,12 +3,12 @@
 
 use std::collections::BTreeMap;
 
-use super::{Condition, Options, StudyError};
+use super::{Condition, HONEST, Options, StudyError};
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
 use crate::classify::joint::Joint;
 use crate::classify::unknown::{PlanScore, Unknown};
-use crate::classify::{Algorithm, Classifier, Distribution, in_plan};
+use crate::classify::{Algorithm, Classifier, Distribution, committee, in_plan};
 use crate::dataset::fold_table;
 use crate::dataset::folds::{Folds, Grouping, group_of};
 use crate::dataset::sets::STANDARD;
@@ -73,12 +73,40 @@ impl SetRows {
 /// One piece of work. Sets and conditions by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Task {
-    Fold { condition: usize, set: usize, algorithm: Algorithm, fold: usize },
-    Foreign { model: usize, algorithm: Algorithm },
-    Point { set: usize, algorithm: Algorithm, fold: usize, share: usize },
-    Joint { set: usize, fold: usize },
-    JointPoint { set: usize, fold: usize, share: usize },
-    Unknown { set: usize, fold: usize },
+    Fold {
+        condition: usize,
+        set: usize,
+        algorithm: Algorithm,
+        fold: usize,
+    },
+    Foreign {
+        model: usize,
+        algorithm: Algorithm,
+    },
+    Point {
+        set: usize,
+        algorithm: Algorithm,
+        fold: usize,
+        share: usize,
+    },
+    /// The committee that takes part in the blend.
+    Committee {
+        set: usize,
+        fold: usize,
+    },
+    Joint {
+        set: usize,
+        fold: usize,
+    },
+    JointPoint {
+        set: usize,
+        fold: usize,
+        share: usize,
+    },
+    Unknown {
+        set: usize,
+        fold: usize,
+    },
 }
 
 /// The outcome of a task.
@@ -231,6 +259,7 @@ impl<'a> Experiment<'a> {
         if !self.collection.networks().is_empty() {
             for (set, rows) in self.sets.iter().enumerate() {
                 let folds = rows.folds_by(Grouping::Building).map_or(0, |folds| folds.count);
+                tasks.extend((0..folds).map(|fold| Task::Committee { set, fold }));
                 tasks.extend((0..folds).map(|fold| Task::Joint { set, fold }));
                 if rows.typology.is_some() {
                     let points = |fold| (0..JOINT_SHARES.len()).map(move |share| Task::JointPoint { set, fold, share });
@@ -294,6 +323,14 @@ impl<'a> Experiment<'a> {
             Task::JointPoint { set, fold, share } => {
                 self.joint_point(&self.sets[set], fold, JOINT_SHARES[share], work).unwrap_or(Outcome::Point(0, 0, 0))
             }
+            Task::Committee { set, fold } => {
+                let learn = |learned: &[usize], seed| {
+                    let (networks, places) = (self.collection.networks(), &self.places);
+                    committee::train(networks, &self.rows, places, learned, seed, work).ok()?
+                };
+                let said = self.predict_in_plans(HONEST, &self.sets[set], fold, &learn);
+                said.map_or(nothing, |said| Outcome::Predicted(said, None))
+            }
             Task::Joint { set, fold } => self.predict_jointly(&self.sets[set], fold, work).unwrap_or(nothing),
             Task::Point { set, algorithm, fold, share } => {
                 self.curve_point(&self.sets[set], algorithm, fold, CURVE_SHARES[share], work)
@@ -318,39 +355,27 @@ impl<'a> Experiment<'a> {
         fold: usize,
         work: &Work<'_>,
     ) -> Option<Outcome> {
+        if condition.neighbours == NeighbourLabels::Predicted {
+            let learn = |learned: &[usize], seed| {
+                let (networks, by) = (self.collection.networks(), condition.by);
+                let rows = in_plan::rows_with_predicted_neighbours(
+                    networks,
+                    &self.rows,
+                    &self.places,
+                    learned,
+                    algorithm,
+                    by,
+                    seed,
+                    work,
+                )
+                .ok()?;
+                Classifier::train(algorithm, &Table::from_rows(&rows).ok()?, seed, work).ok()
+            };
+            let said = self.predict_in_plans(condition, set, fold, &learn)?;
+            return Some(Outcome::Predicted(said, None));
+        }
         let (tested, learned) = Self::split(set, condition.by, fold)?;
         let seed = seed_of_part(self.options.seed, fold);
-        if condition.neighbours == NeighbourLabels::Predicted {
-            let networks = self.collection.networks();
-            let rows = in_plan::rows_with_predicted_neighbours(
-                networks,
-                &self.rows,
-                &self.places,
-                &learned,
-                algorithm,
-                condition.by,
-                seed,
-                work,
-            )
-            .ok()?;
-            let classifier = Classifier::train(algorithm, &Table::from_rows(&rows).ok()?, seed, work).ok()?;
-            let mut predictions = Vec::with_capacity(tested.len());
-            let mut classified: Option<(usize, Vec<Distribution>)> = None;
-            for row in tested {
-                let RoomPlace { network, room } = self.places[row];
-                let distributions = match classified.take() {
-                    Some((of, distributions)) if of == network => distributions,
-                    _ => {
-                        let unknown = vec![None; networks[network].rooms.len()];
-                        in_plan::classify(&classifier, &networks[network], &unknown, NeighbourLabels::Predicted)
-                            .distributions
-                    }
-                };
-                predictions.push((row, distributions[room]));
-                classified = Some((network, distributions));
-            }
-            return Some(Outcome::Predicted(predictions, None));
-        }
         let data = self.rows_in(condition.neighbours);
         let table = Table::from_rows(learned.iter().map(|&row| &data[row])).ok()?;
         let classifier = Classifier::train(algorithm, &table, seed, work).ok()?;
@@ -361,6 +386,36 @@ impl<'a> Experiment<'a> {
             right_when_shuffled(&classifier, &values, &truths, seed)
         });
         Some(Outcome::Predicted(predictions, shuffled))
+    }
+
+    /// A classifier on the rooms of a fold, whole plans at a time, with the labels of neighbours predicted; `learn` trains it on
+    /// the other rooms of the set, with a seed.
+    fn predict_in_plans(
+        &self,
+        condition: Condition,
+        set: &SetRows,
+        fold: usize,
+        learn: &dyn Fn(&[usize], u64) -> Option<Classifier>,
+    ) -> Option<Vec<(usize, Distribution)>> {
+        let (tested, learned) = Self::split(set, condition.by, fold)?;
+        let networks = self.collection.networks();
+        let classifier = learn(&learned, seed_of_part(self.options.seed, fold))?;
+        let mut predictions = Vec::with_capacity(tested.len());
+        let mut classified: Option<(usize, Vec<Distribution>)> = None;
+        for row in tested {
+            let RoomPlace { network, room } = self.places[row];
+            let distributions = match classified.take() {
+                Some((of, distributions)) if of == network => distributions,
+                _ => {
+                    let unknown = vec![None; networks[network].rooms.len()];
+                    in_plan::classify(&classifier, &networks[network], &unknown, NeighbourLabels::Predicted)
+                        .distributions
+                }
+            };
+            predictions.push((row, distributions[room]));
+            classified = Some((network, distributions));
+        }
+        Some(predictions)
     }
 
     /// The joint classifier on the buildings of a fold, trained on the others of the set.

@@ -7,7 +7,7 @@ use super::compare::Results;
 use super::measure::{Experiment, Outcome, Task};
 use super::predictions::Prediction;
 use super::typologies::infer_typologies;
-use super::{Cell, Condition, Curve, Options, Study, StudyError};
+use super::{Cell, Condition, Curve, HONEST, Options, Study, StudyError};
 use crate::base::random::Random;
 use crate::base::work::{Cancelled, Work};
 use crate::classify::{Algorithm, FoldScore, Method};
@@ -50,11 +50,19 @@ pub fn study_with_predictions(
     Ok((study, experiment.predictions(&results, &conditions)))
 }
 
-/// Scores, notes on what could not be measured, and what was said of each room.
-pub type Validation = (Vec<Cell>, Vec<String>, Vec<Prediction>);
+/// What a cross-validation found.
+pub struct Validation {
+    pub cells: Vec<Cell>,
+    /// What could not be measured.
+    pub notes: Vec<String>,
+    /// What was said of each room out of fold.
+    pub predictions: Vec<Prediction>,
+    /// The same of the committees that take part in blends.
+    pub by_committees: Vec<Prediction>,
+}
 
 /// Cross-validates some algorithms on one set under some conditions, without the rest of a study.
-/// Conditions that cannot be measured are left out and named in the notes beside the cells; behind them what was said of each room.
+/// Conditions that cannot be measured are left out and named in the notes.
 ///
 /// # Errors
 /// As [`study`].
@@ -96,6 +104,10 @@ pub fn validate_telling(
         Task::Fold { condition, set: of, algorithm, .. } => {
             experiment.sets[of].name == set && algorithms.contains(&algorithm) && conditions.contains(&all[condition])
         }
+        Task::Committee { set: of, .. } => {
+            let is_wanted = algorithms.contains(&Algorithm::PERCEPTRON) && conditions.contains(&HONEST);
+            experiment.sets[of].name == set && is_wanted
+        }
         Task::Foreign { .. }
         | Task::Point { .. }
         | Task::Joint { .. }
@@ -113,7 +125,8 @@ pub fn validate_telling(
     let results = perform_telling(&experiment, tasks, &heard, work)?;
     let cells = experiment.cells(&results).into_iter().filter(|cell| cell.scores.rooms > 0).collect();
     let predictions = experiment.predictions(&results, conditions);
-    Ok((cells, experiment.notes, predictions))
+    let by_committees = experiment.by_committees(&results);
+    Ok(Validation { cells, notes: experiment.notes, predictions, by_committees })
 }
 
 /// The learning curve of an algorithm on one set: accuracy after learning from parts of the rooms, with the folds of

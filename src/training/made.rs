@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{Made, Order, TrainError, Trained, wrong};
-use crate::classify::blend::{self, Blend, Part};
+use crate::classify::blend::{self, Blend, By, Part};
 use crate::classify::learned::Learned;
 use crate::classify::model_file::{self, About, DataSummary, Parts, ScoreSummary};
 use crate::classify::models::StoredModel;
-use crate::classify::{Distribution, Method, Scores};
+use crate::classify::{Classifier, Distribution, Method, Scores};
 use crate::dataset::fingerprint::RoomPrint;
 use crate::dataset::folds::Grouping;
 use crate::dataset::sets::set_name;
@@ -58,7 +58,8 @@ impl Trained {
     /// What was said of some rooms of a set by classifiers that had not seen their building, and the folds. Shorter than the
     /// list of rooms where something is missing.
     fn by_building(&self, set: &str, method: Method, rooms: &[usize]) -> (Vec<Distribution>, Vec<usize>) {
-        let told = self.said.get(set).into_iter().flatten();
+        let said = if matches!(method, Method::Each(_)) { &self.by_committees } else { &self.said };
+        let told = said.get(set).into_iter().flatten();
         let told = told.filter(|it| it.method == method && it.condition.by == Grouping::Building);
         let of_row: BTreeMap<usize, (Distribution, usize)> = told.map(|it| (it.row, (it.said, it.fold))).collect();
         rooms.iter().filter_map(|room| of_row.get(room).copied()).unzip()
@@ -70,6 +71,7 @@ impl Trained {
         typology: Option<&Typology>,
         part: &Collection,
         all: &Collection,
+        committee: Option<Classifier>,
         order: &Order,
     ) -> Result<Option<Made>, TrainError> {
         let set = set_name(typology);
@@ -83,8 +85,13 @@ impl Trained {
         let among_own: Vec<usize> = (0..rows.len()).collect();
         let (mut parts, mut unseen, mut folds) = (Vec::new(), Vec::new(), Vec::new());
         for (of, method, weight) in blend::recipe(set) {
-            let Some(model) = self.models.get(&(of.to_owned(), method)) else { continue };
-            parts.push(Part { weight, model: model.clone() });
+            let by = match method {
+                Method::Joint => self.joints.get(of).map(|model| By::Model(model.clone())),
+                // The recipe asks for no perceptrons of another set.
+                _ => committee.clone().map(|classifier| By::Committee { set: of.to_owned(), classifier }),
+            };
+            let Some(by) = by else { continue };
+            parts.push(Part { weight, by });
             let (said, of_folds) = self.by_building(of, method, if of == set { &among_own } else { &among_all });
             unseen.push((weight, said));
             if folds.is_empty() {
@@ -118,7 +125,7 @@ impl Trained {
         };
         let bytes = model_file::to_bytes(&blend.into(), &about);
         let parts = |name: &str| {
-            let part = self.models.values().find(|model| model.name == name)?;
+            let part = self.joints.values().find(|model| model.name == name)?;
             let part: Arc<dyn blend::Member> = part.clone();
             Some(part)
         };

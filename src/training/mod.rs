@@ -8,10 +8,11 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
+use self::validating::Validated;
 use crate::base::work::{Cancelled, Work};
 use crate::classify::model_file::{self, About, DataSummary, ScoreSummary};
 use crate::classify::models::StoredModel;
-use crate::classify::{Algorithm, Classifier, Method, PlanClassifier, Scores, blend, in_plan, joint::Joint};
+use crate::classify::{Algorithm, Classifier, Method, PlanClassifier, Scores, committee, in_plan, joint::Joint};
 use crate::dataset::folds::Grouping;
 use crate::dataset::sets::{STANDARD, plans_of, set_name};
 use crate::dataset::table::Table;
@@ -177,10 +178,12 @@ pub fn methods(collection: &Collection, method: Option<Method>) -> Result<Vec<Me
 /// What training found besides the models.
 #[derive(Default)]
 pub struct Trained {
-    /// The models that blends are made of, by set and method.
-    models: BTreeMap<(String, Method), Arc<StoredModel>>,
+    /// The joint classifiers, which take part in blends, by set.
+    joints: BTreeMap<String, Arc<StoredModel>>,
     /// What was said out of fold, by set.
     pub said: BTreeMap<String, Vec<Prediction>>,
+    /// The same of the committees that take part in blends.
+    by_committees: BTreeMap<String, Vec<Prediction>>,
 }
 
 /// Trains the models of an order on parts of a collection, one after the other: of each part each method, then the blends.
@@ -201,7 +204,8 @@ pub fn train<W: Watcher>(
             Collection::Plans(_) => NeighbourLabels::Predicted,
             Collection::Rows(_) => NeighbourLabels::True,
         });
-        let (scores_of, predictions) = validating::validated(part, set, methods, neighbours, order, watcher)?;
+        let Validated { scores: scores_of, said: predictions, by_committees } =
+            validating::validated(part, set, methods, neighbours, order, watcher)?;
         for &method in methods {
             let scores: Vec<(Grouping, Scores)> =
                 scores_of.iter().filter(|(of, _)| *of == method).map(|(_, scores)| scores.clone()).collect();
@@ -219,16 +223,18 @@ pub fn train<W: Watcher>(
             };
             let bytes = model_file::to_bytes(&classifier, &about);
             let made = made::made(set, method, bytes, scores, &|_| None)?;
-            if blend::RECIPE.iter().any(|of| of.method == method) {
-                trained.models.insert((set.to_owned(), method), made.model.clone());
+            if method == Method::Joint {
+                trained.joints.insert(set.to_owned(), made.model.clone());
             }
             watcher.made(made)?;
         }
         trained.said.insert(set.to_owned(), predictions);
+        trained.by_committees.insert(set.to_owned(), by_committees);
     }
     if order.method.is_none() && !collection.networks().is_empty() {
         for (typology, part) in parts {
-            if let Some(blend) = trained.blend(typology.as_ref(), part, collection, order)? {
+            let committee = committee(part, set_name(typology.as_ref()), order, watcher)?;
+            if let Some(blend) = trained.blend(typology.as_ref(), part, collection, committee, order)? {
                 watcher.made(blend)?;
             }
         }
@@ -250,6 +256,21 @@ fn rows_of(part: &Collection, neighbours: NeighbourLabels) -> Result<Vec<Row>, T
             neighbours.name()
         ))
     })
+}
+
+/// The committee that takes part in the blend of a set.
+fn committee<W: Watcher>(
+    part: &Collection,
+    set: &str,
+    order: &Order,
+    watcher: &mut W,
+) -> Result<Option<Classifier>, W::Error> {
+    let learn = |work: &Work<'_>| -> Result<Option<Classifier>, TrainError> {
+        let rows = rows_of(part, NeighbourLabels::Predicted)?;
+        let all: Vec<usize> = (0..rows.len()).collect();
+        Ok(committee::train(part.networks(), &rows, &part.places(), &all, order.seed, work)?)
+    };
+    Ok(watcher.step(&format!("training {set}, committee of perceptrons"), learn)?)
 }
 
 /// A classifier that learned from all rooms of a part, and what it learned from.

@@ -11,10 +11,19 @@ use crate::dataset::sets::{plans_of, set_name};
 use crate::dataset::{Collection, RoomNetwork};
 use crate::features::NeighbourLabels;
 use crate::study::predictions::Prediction;
-use crate::study::{Cell, Condition, FoldTold, Options, StudyError, validate_telling};
+use crate::study::{Cell, Condition, FoldTold, Options, StudyError, Validation, validate_telling};
 
 /// The scores of each method, and the unit assigned to folds.
 pub(super) type ScoresOf = Vec<(Method, (Grouping, Scores))>;
+
+/// What cross-validation found.
+#[derive(Default)]
+pub(super) struct Validated {
+    pub scores: ScoresOf,
+    pub said: Vec<Prediction>,
+    /// What the committees that take part in blends said.
+    pub by_committees: Vec<Prediction>,
+}
 
 /// What an error of the joint classifier means here.
 pub(super) fn joint_error(error: JointTrainError) -> TrainError {
@@ -33,11 +42,10 @@ pub(super) fn validated<W: Watcher>(
     neighbours: NeighbourLabels,
     order: &Order,
     watcher: &mut W,
-) -> Result<(ScoresOf, Vec<Prediction>), W::Error> {
-    let mut predictions = Vec::new();
-    let mut scores = ScoresOf::new();
+) -> Result<Validated, W::Error> {
+    let Validated { mut scores, said: mut predictions, mut by_committees } = Validated::default();
     if order.folds == 0 || order.groupings.is_empty() {
-        return Ok((scores, predictions));
+        return Ok(Validated::default());
     }
     let told = watcher.folds(set);
     let algorithms: Vec<Algorithm> =
@@ -54,10 +62,13 @@ pub(super) fn validated<W: Watcher>(
             validate_telling(part, options, &of_part, &algorithms, &conditions, &*told, work)
         });
         match result {
-            Ok((cells, notes, said)) => {
-                predictions.extend(
-                    said.into_iter().filter(|it| it.set == of_part).map(|it| Prediction { set: set.to_owned(), ..it }),
-                );
+            Ok(Validation { cells, notes, predictions: said, by_committees: together }) => {
+                let of_part_alone = |said: Vec<Prediction>| -> Vec<Prediction> {
+                    let said = said.into_iter().filter(|it| it.set == of_part);
+                    said.map(|it| Prediction { set: set.to_owned(), ..it }).collect()
+                };
+                predictions = of_part_alone(said);
+                by_committees = of_part_alone(together);
                 for note in notes.iter().filter(|note| note.starts_with(&of_part)) {
                     watcher.remark(note)?;
                 }
@@ -97,7 +108,7 @@ pub(super) fn validated<W: Watcher>(
             Err(error) => watcher.remark(&format!("{set}, joint classifier: not validated: {error}"))?,
         }
     }
-    Ok((scores, predictions))
+    Ok(Validated { scores, said: predictions, by_committees })
 }
 
 /// Number of buildings with a labelled room.

@@ -24,7 +24,7 @@ use crate::features::{Features, NeighbourLabels};
 use crate::labels::Label;
 use crate::store;
 use crate::study::paper::PaperFigures;
-use crate::study::{Condition, Curve, CurvePoint, Options, StudyError, learning_curve_telling, validate};
+use crate::study::{Condition, Curve, CurvePoint, Options, StudyError, Validation, learning_curve_telling, validate};
 
 /// The name of the job, by which its progress is found.
 const JOB: &str = "measure classifiers";
@@ -288,7 +288,7 @@ fn measured(
     let options = Options { folds: FOLDS, grouping: Grouping::Building, neighbours, ..Options::default() };
     let condition = Condition { by: Grouping::Building, neighbours };
     let test = |work: &Work<'_>| validate(&at_hand.collection, options, set, &[algorithm], &[condition], work);
-    let (cells, notes, said) = work.within(0.0..TESTING_SHARE, test)?;
+    let Validation { cells, notes, predictions: said, .. } = work.within(0.0..TESTING_SHARE, test)?;
     let Some(cell) = cells.into_iter().next() else {
         let why = notes.into_iter().next().unwrap_or_else(|| "there are too few buildings".to_owned());
         return Err(StudyError::Data(why));

@@ -79,6 +79,13 @@ impl Learner for Backpropagation {
     }
 
     fn from_json(&self, model: Value) -> Option<Arc<dyn Model>> {
+        Some(Arc::new(Perceptron::read(model)?))
+    }
+}
+
+impl Perceptron {
+    /// Reads the net that its [`Model::to_json`] wrote; `None` if the data are not a valid one.
+    pub fn read(model: Value) -> Option<Self> {
         let DiskPerceptron { scale, typical, units, output_bias } = serde_json::from_value(model).ok()?;
         let units: [DiskUnit; HIDDEN] = units.try_into().ok()?;
         let hidden = std::array::from_fn(|input| {
@@ -94,7 +101,7 @@ impl Learner for Backpropagation {
             means: scale.means,
             deviations: scale.deviations,
         };
-        Some(Arc::new(Perceptron::from_parts(scale, weights, typical)?))
+        Self::from_parts(scale, weights, typical)
     }
 }
 
@@ -180,12 +187,17 @@ pub struct Weights {
     pub output_bias: [f32; LABELS],
 }
 
-/// The forward pass for one room.
-struct Pass {
+/// The hidden units' part of a forward pass.
+struct Hidden {
     /// The outputs of the hidden units.
     given: [f32; HIDDEN],
     /// Their slopes.
     slope: [f32; HIDDEN],
+}
+
+/// The forward pass for one room.
+struct Pass {
+    hidden: Hidden,
     probabilities: [f32; LABELS],
 }
 
@@ -216,6 +228,12 @@ impl Weights {
     }
 
     fn pass(&self, inputs: &[f32; FEATURES]) -> Pass {
+        let hidden = self.hidden_pass(inputs);
+        let probabilities = softmax(self.scores(&hidden.given));
+        Pass { hidden, probabilities }
+    }
+
+    fn hidden_pass(&self, inputs: &[f32; FEATURES]) -> Hidden {
         let mut sums = self.hidden[FEATURES];
         for (input, weights) in inputs.iter().zip(&self.hidden) {
             for (sum, weight) in sums.iter_mut().zip(weights) {
@@ -224,13 +242,17 @@ impl Weights {
         }
         let slope = sums.map(|sum| if sum > 0.0 { 1.0 } else { LEAK });
         let given = std::array::from_fn(|unit| sums[unit] * slope[unit]);
-        let scores = std::array::from_fn(|label| self.output_bias[label] + dot(&self.output[label], &given));
-        Pass { given, slope, probabilities: softmax(scores) }
+        Hidden { given, slope }
+    }
+
+    /// What softmax makes the probabilities of.
+    fn scores(&self, given: &[f32; HIDDEN]) -> [f32; LABELS] {
+        std::array::from_fn(|label| self.output_bias[label] + dot(&self.output[label], given))
     }
 
     /// Adds the gradient of one room's cross-entropy to `gradient`. Returns the cross-entropy.
     fn add_gradient(&self, inputs: &[f32; FEATURES], label: usize, gradient: &mut Self) -> f64 {
-        let Pass { given, slope, probabilities: mut error } = self.pass(inputs);
+        let Pass { hidden: Hidden { given, slope }, probabilities: mut error } = self.pass(inputs);
         let loss = cross_entropy(error[label]);
         error[label] -= 1.0;
         let mut back = [0.0; HIDDEN];
@@ -393,6 +415,15 @@ impl Perceptron {
 
     pub fn predict(&self, values: &Values) -> Distribution {
         Distribution::from_weights(self.weights.pass(&self.scale.apply(values)).probabilities.map(f64::from))
+    }
+
+    /// The same at a temperature, of a room whose features were transformed by [`Scale::transform`] already: what several nets
+    /// are asked about is transformed once.
+    pub fn predict_transformed(&self, transformed: &Values, temperature: f64) -> [f32; LABELS] {
+        let Hidden { given, .. } = self.weights.hidden_pass(&self.scale.standardised(transformed));
+        // As powers of the probabilities would be, which take far longer.
+        let surer = (1.0 / temperature) as f32;
+        softmax(self.weights.scores(&given).map(|score| score * surer))
     }
 }
 
