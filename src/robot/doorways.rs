@@ -48,7 +48,7 @@ impl DoorwayOptions {
 impl Default for DoorwayOptions {
     /// The paper's values, plus the test that the floor widens and wide free passages.
     fn default() -> Self {
-        Self { must_widen: true, widest_m: 2.2, widest_passage_m: 4.0, shortest_jamb_m: 0.15, ..Self::PAPER }
+        Self { must_widen: true, widest_m: 2.2, widest_passage_m: 4.5, shortest_jamb_m: 0.15, ..Self::PAPER }
     }
 }
 
@@ -209,7 +209,8 @@ pub fn gaps(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptions) 
         let doorway = merged(gaps);
         if options.must_widen { deepened(doorway, boundary) } else { doorway }
     });
-    Gaps { doorways: doorways.collect(), mouths }
+    let is_passage = |doorway: &Doorway| !options.must_widen || !is_width_change(doorway, boundary, &found);
+    Gaps { doorways: doorways.filter(is_passage).collect(), mouths }
 }
 
 /// Whether a segment is parallel or square to a longer wall near it: noise at corners is neither.
@@ -365,6 +366,53 @@ pub(super) fn widens(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -
         let steps = (ahead_m / 0.05).floor().max(0.0) as usize;
         (1..=steps).any(|step| width_m(middle + across * (step as f64 * 0.05)) >= wider_m)
     })
+}
+
+/// A door of one leaf is at most this wide, in metres, and may be in a corner of its room.
+const WIDEST_LEAF_M: f64 = 1.0;
+
+/// Depth of a usual wall between rooms, in metres.
+const WALL_DEPTHS_M: std::ops::RangeInclusive<f64> = 0.08..=0.3;
+
+/// At an end where the floor widens by less, in metres and as a share of the doorway's width, no wall is seen.
+const LEAST_END_M: f64 = 0.1;
+const END_SHARE: f64 = 0.15;
+
+/// Whether a gap is where a room gets narrower, at a pier or at a step of its outline: it is wider than a door's leaf,
+/// the floor beside it widens at one of its ends only, and its depth is not that of a wall. A pier is deeper, a step has
+/// no depth. Where the floor widens a lot at the same end on both sides of a thick wall, it is a passage in a corner.
+fn is_width_change(doorway: &Doorway, boundary: &RayGrid, found: &[Vec<Segment>]) -> bool {
+    if doorway.width_m <= WIDEST_LEAF_M || WALL_DEPTHS_M.contains(&doorway.depth_m) {
+        return false;
+    }
+    let Some(along) = doorway.segment.vector().unit() else { return false };
+    let middle = doorway.segment.midpoint();
+    let half_m = doorway.width_m / 2.0;
+    let least_m = LEAST_END_M.max(END_SHARE * doorway.width_m);
+    let others: Vec<Segment> = found
+        .iter()
+        .filter(|group| !group.iter().any(|&other| is_same_doorway(doorway.segment, other)))
+        .flatten()
+        .copied()
+        .collect();
+    let beyond_m = |at: Point, way: Vector| {
+        let wall_m = boundary.cast(at, way, WIDTH_LIMIT_M).map_or(WIDTH_LIMIT_M, |hit| hit.distance_m);
+        others.iter().filter_map(|&door| super::ray_grid::hit_m(at, way, door)).fold(wall_m, f64::min) - half_m
+    };
+    // How much further the floor reaches past each end where it is widest, on the left and on the right.
+    let sides = [along.left(), -along.left()].map(|across| {
+        let ahead_m = boundary.cast(middle, across, DEEPEST_M).map_or(DEEPEST_M, |hit| hit.distance_m - 0.05);
+        let steps = (ahead_m / 0.05).floor().max(0.0) as usize;
+        let ends = (1..=steps).map(|step| {
+            let at = middle + across * (step as f64 * 0.05);
+            [beyond_m(at, -along), beyond_m(at, along)]
+        });
+        ends.max_by(|p, q| (p[0] + p[1]).total_cmp(&(q[0] + q[1]))).unwrap_or_default()
+    });
+    let is_in_corner = doorway.depth_m >= *WALL_DEPTHS_M.start()
+        && (0..2).any(|end| sides.iter().all(|side| side[end] >= doorway.width_m));
+    let is_framed = sides.iter().any(|side| side.iter().all(|&end_m| end_m > least_m));
+    !is_in_corner && !is_framed
 }
 
 /// A wall ends beside a gap if the floor reaches this much further than the gap's end, in metres.
