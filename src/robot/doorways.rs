@@ -209,8 +209,7 @@ pub fn gaps(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptions) 
         let doorway = merged(gaps);
         if options.must_widen { deepened(doorway, boundary) } else { doorway }
     });
-    let is_passage = |doorway: &Doorway| !options.must_widen || !is_width_change(doorway, boundary, &found);
-    Gaps { doorways: doorways.filter(is_passage).collect(), mouths }
+    Gaps { doorways: doorways.collect(), mouths }
 }
 
 /// Whether a segment is parallel or square to a longer wall near it: noise at corners is neither.
@@ -378,10 +377,14 @@ const WALL_DEPTHS_M: std::ops::RangeInclusive<f64> = 0.08..=0.3;
 const LEAST_END_M: f64 = 0.1;
 const END_SHARE: f64 = 0.15;
 
+/// Floor that reaches this many widths of a passage further on both sides of it is of two rooms, however the passage lies.
+const NARROW_SHARE: f64 = 2.5;
+
 /// Whether a gap is where a room gets narrower, at a pier or at a step of its outline: it is wider than a door's leaf,
 /// the floor beside it widens at one of its ends only, and its depth is not that of a wall. A pier is deeper, a step has
-/// no depth. Where the floor widens a lot at the same end on both sides of a thick wall, it is a passage in a corner.
-fn is_width_change(doorway: &Doorway, boundary: &RayGrid, found: &[Vec<Segment>]) -> bool {
+/// no depth. The other `doorways` count as closed. Where the floor on both sides of a thick wall widens a lot, at the
+/// same end or a great deal at any, it is a passage in that wall.
+pub(super) fn is_width_change(doorway: &Doorway, boundary: &RayGrid, doorways: &[Doorway]) -> bool {
     if doorway.width_m <= WIDEST_LEAF_M || WALL_DEPTHS_M.contains(&doorway.depth_m) {
         return false;
     }
@@ -389,12 +392,8 @@ fn is_width_change(doorway: &Doorway, boundary: &RayGrid, found: &[Vec<Segment>]
     let middle = doorway.segment.midpoint();
     let half_m = doorway.width_m / 2.0;
     let least_m = LEAST_END_M.max(END_SHARE * doorway.width_m);
-    let others: Vec<Segment> = found
-        .iter()
-        .filter(|group| !group.iter().any(|&other| is_same_doorway(doorway.segment, other)))
-        .flatten()
-        .copied()
-        .collect();
+    let others = doorways.iter().map(|other| other.segment).filter(|&other| !is_same_doorway(doorway.segment, other));
+    let others: Vec<Segment> = others.collect();
     let beyond_m = |at: Point, way: Vector| {
         let wall_m = boundary.cast(at, way, WIDTH_LIMIT_M).map_or(WIDTH_LIMIT_M, |hit| hit.distance_m);
         others.iter().filter_map(|&door| super::ray_grid::hit_m(at, way, door)).fold(wall_m, f64::min) - half_m
@@ -409,10 +408,12 @@ fn is_width_change(doorway: &Doorway, boundary: &RayGrid, found: &[Vec<Segment>]
         });
         ends.max_by(|p, q| (p[0] + p[1]).total_cmp(&(q[0] + q[1]))).unwrap_or_default()
     });
-    let is_in_corner = doorway.depth_m >= *WALL_DEPTHS_M.start()
-        && (0..2).any(|end| sides.iter().all(|side| side[end] >= doorway.width_m));
+    let width_m = doorway.width_m;
+    let is_in_corner = (0..2).any(|end| sides.iter().all(|side| side[end] >= width_m));
+    let is_narrow = sides.iter().all(|side| side[0].max(side[1]) >= NARROW_SHARE * width_m);
+    let is_in_wall = doorway.depth_m >= *WALL_DEPTHS_M.start() && (is_in_corner || is_narrow);
     let is_framed = sides.iter().any(|side| side.iter().all(|&end_m| end_m > least_m));
-    !is_in_corner && !is_framed
+    !is_in_wall && !is_framed
 }
 
 /// A wall ends beside a gap if the floor reaches this much further than the gap's end, in metres.

@@ -6,7 +6,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay as _;
 
 use super::RayGrid;
-use super::doorways::{Doorway, DoorwayOptions, Gaps, Groups, gaps, is_inside, walls};
+use super::doorways::{Doorway, DoorwayOptions, Gaps, Groups, gaps, is_inside, is_width_change, walls};
 use super::furniture::rectangle;
 use super::quadrilaterals::mean_quadrilateral_m2;
 use crate::base::random::Random;
@@ -89,9 +89,19 @@ pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) ->
         }
         // Two doorways with only a doorstep between them are one: keep the narrower.
         match between_two(&found, &sides, &pieces, options) {
-            Some(wider) => found.remove(wider),
-            None => break (pieces, sides),
-        };
+            Some(wider) => {
+                found.remove(wider);
+                continue;
+            }
+            None if !options.doorways.must_widen => break (pieces, sides),
+            None => {}
+        }
+        let passages = found.iter().filter(|doorway| !is_width_change(doorway, &boundary, &found)).cloned();
+        let passages: Vec<Doorway> = passages.collect();
+        if passages.len() == found.len() {
+            break (pieces, sides);
+        }
+        found = passages;
     };
     if close_mouths(&mouths, &mut found, &mut pieces, options) {
         sides = sides_of(&found, &pieces);
