@@ -327,7 +327,7 @@ pub(super) fn is_inside(boundary: &RayGrid, point: Point) -> bool {
 }
 
 /// Maximum depth of a doorway in metres: the thickest plausible wall, with a margin.
-const DEEPEST_M: f64 = 0.65;
+pub(super) const DEEPEST_M: f64 = 0.65;
 
 /// How much wider than a doorway the floor beside it must be, in metres and as a share of its width.
 const WIDER_M: f64 = 0.06;
@@ -337,7 +337,7 @@ const WIDER_SHARE: f64 = 0.1;
 const WIDE_WIDER_SHARE: f64 = 0.2;
 
 /// Maximum length of rays along a gap, in metres.
-const WIDTH_LIMIT_M: f64 = 6.0;
+pub(super) const WIDTH_LIMIT_M: f64 = 6.0;
 
 /// Whether the free floor is wider than the gap to its left and to its right, within the depth of a wall.
 /// Doorways already found count as closed.
@@ -367,55 +367,6 @@ pub(super) fn widens(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -
     })
 }
 
-/// A door of one leaf is at most this wide, in metres, and may be in a corner of its room.
-const WIDEST_LEAF_M: f64 = 1.0;
-
-/// Depth of a usual wall between rooms, in metres.
-const WALL_DEPTHS_M: std::ops::RangeInclusive<f64> = 0.08..=0.3;
-
-/// At an end where the floor widens by less, in metres and as a share of the doorway's width, no wall is seen.
-const LEAST_END_M: f64 = 0.1;
-const END_SHARE: f64 = 0.15;
-
-/// Floor that reaches this many widths of a passage further on both sides of it is of two rooms, however the passage lies.
-const NARROW_SHARE: f64 = 2.5;
-
-/// Whether a gap is where a room gets narrower, at a pier or at a step of its outline: it is wider than a door's leaf,
-/// the floor beside it widens at one of its ends only, and its depth is not that of a wall. A pier is deeper, a step has
-/// no depth. The other `doorways` count as closed. Where the floor on both sides of a thick wall widens a lot, at the
-/// same end or a great deal at any, it is a passage in that wall.
-pub(super) fn is_width_change(doorway: &Doorway, boundary: &RayGrid, doorways: &[Doorway]) -> bool {
-    if doorway.width_m <= WIDEST_LEAF_M || WALL_DEPTHS_M.contains(&doorway.depth_m) {
-        return false;
-    }
-    let Some(along) = doorway.segment.vector().unit() else { return false };
-    let middle = doorway.segment.midpoint();
-    let half_m = doorway.width_m / 2.0;
-    let least_m = LEAST_END_M.max(END_SHARE * doorway.width_m);
-    let others = doorways.iter().map(|other| other.segment).filter(|&other| !is_same_doorway(doorway.segment, other));
-    let others: Vec<Segment> = others.collect();
-    let beyond_m = |at: Point, way: Vector| {
-        let wall_m = boundary.cast(at, way, WIDTH_LIMIT_M).map_or(WIDTH_LIMIT_M, |hit| hit.distance_m);
-        others.iter().filter_map(|&door| super::ray_grid::hit_m(at, way, door)).fold(wall_m, f64::min) - half_m
-    };
-    // How much further the floor reaches past each end where it is widest, on the left and on the right.
-    let sides = [along.left(), -along.left()].map(|across| {
-        let ahead_m = boundary.cast(middle, across, DEEPEST_M).map_or(DEEPEST_M, |hit| hit.distance_m - 0.05);
-        let steps = (ahead_m / 0.05).floor().max(0.0) as usize;
-        let ends = (1..=steps).map(|step| {
-            let at = middle + across * (step as f64 * 0.05);
-            [beyond_m(at, -along), beyond_m(at, along)]
-        });
-        ends.max_by(|p, q| (p[0] + p[1]).total_cmp(&(q[0] + q[1]))).unwrap_or_default()
-    });
-    let width_m = doorway.width_m;
-    let is_in_corner = (0..2).any(|end| sides.iter().all(|side| side[end] >= width_m));
-    let is_narrow = sides.iter().all(|side| side[0].max(side[1]) >= NARROW_SHARE * width_m);
-    let is_in_wall = doorway.depth_m >= *WALL_DEPTHS_M.start() && (is_in_corner || is_narrow);
-    let is_framed = sides.iter().any(|side| side.iter().all(|&end_m| end_m > least_m));
-    !is_in_wall && !is_framed
-}
-
 /// A wall ends beside a gap if the floor reaches this much further than the gap's end, in metres.
 const JOG_M: f64 = 0.05;
 
@@ -441,7 +392,7 @@ fn jogs(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -> [[bool; 2];
 }
 
 /// Whether two gaps belong to the two faces of one wall, or to the same face.
-fn is_same_doorway(p: Segment, q: Segment) -> bool {
+pub(super) fn is_same_doorway(p: Segment, q: Segment) -> bool {
     let Some(along) = q.vector().unit() else { return false };
     let way = p.midpoint() - q.midpoint();
     let (stretch_from, stretch_to) = crate::geometry::segments::common_stretch(q, p);

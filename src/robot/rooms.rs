@@ -6,9 +6,10 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay as _;
 
 use super::RayGrid;
-use super::doorways::{Doorway, DoorwayOptions, Gaps, Groups, gaps, is_inside, is_width_change, walls};
+use super::doorways::{Doorway, DoorwayOptions, Gaps, Groups, gaps, is_inside, walls};
 use super::furniture::rectangle;
 use super::quadrilaterals::mean_quadrilateral_m2;
+use super::width_changes::is_width_change;
 use crate::base::random::Random;
 use crate::geometry::areas::{self, Ring, Shapes};
 use crate::geometry::runs::{self, Axes};
@@ -418,4 +419,34 @@ fn room(piece: &[Ring], points: Vec<usize>, options: &RoomOptions) -> Option<Fou
     }
     let axes = runs::axes(&outer, &holes);
     Some(FoundRoom { area_m2: mean_quadrilateral_m2(&outer), outer, holes, axes, points })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_leak_past_a_wall_joins_no_rooms() {
+        // Two rooms with a slit of this width between them.
+        let joined = |slit_m: f64| -> Vec<Ring> {
+            let (low, high) = (1.0, 1.0 + slit_m);
+            let ring = vec![
+                [0.0, 0.0],
+                [3.0, 0.0],
+                [3.0, low],
+                [3.1, low],
+                [3.1, 0.0],
+                [6.0, 0.0],
+                [6.0, 3.0],
+                [3.1, 3.0],
+                [3.1, high],
+                [3.0, high],
+                [3.0, 3.0],
+                [0.0, 3.0],
+            ];
+            vec![ring]
+        };
+        assert_eq!(without_leaks(joined(0.1)).len(), 2);
+        assert_eq!(without_leaks(joined(0.5)), [joined(0.5)]);
+    }
 }
