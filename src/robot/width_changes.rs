@@ -7,8 +7,8 @@ use crate::geometry::{Point, Segment, Vector};
 /// A door of one leaf is at most this wide, in metres, and may be in a corner of its room.
 const WIDEST_LEAF_M: f64 = 1.0;
 
-/// Depth of a usual wall between rooms, in metres.
-const WALL_DEPTHS_M: std::ops::RangeInclusive<f64> = 0.08..=0.3;
+/// Depth of a usual wall between rooms, in metres: up to 30 cm of masonry, and the error of a map.
+const WALL_DEPTHS_M: std::ops::RangeInclusive<f64> = 0.08..=0.33;
 
 /// At an end where the floor widens by less, in metres and as a share of the doorway's width, no wall is seen.
 const LEAST_END_M: f64 = 0.1;
