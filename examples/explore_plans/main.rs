@@ -2,13 +2,14 @@
 //!
 //!     CARGO_PROFILE_DEV_OPT_LEVEL=2 cargo run --no-default-features --features cli --example explore_plans -- \
 //!         [--noise 1] [--furniture 0] [--ajar 0] [--seed 1] [--paper] [--pictures DIR] [--store DIR] \
-//!         [own] [real=DIR | next=DIR] [PLAN...]
+//!         [own] [real=DIR | next=DIR | later=DIR] [PLAN...]
 //!
 //! `--store` keeps what each exploration saw in a folder and takes it from there the next time: then only the rooms are
 //! found anew, which takes seconds. After a change of what explores, use another folder. `--ajar` is a share of the doors.
 //!
 //! `own` stands for the three bundled plans and 17 that `layouts.rs` makes, `generated` for the latter alone; `real=DIR`
-//! for 20 real plans below a folder, chosen by the rule in `sets.rs`, `next=DIR` for those that come after them.
+//! for 20 real plans below a folder, chosen by the rule in `sets.rs`, `next=DIR` for those that come after them,
+//! `later=DIR` for those after these.
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "an example talks to its user")]
 #![allow(clippy::disallowed_methods, reason = "it says how long each plan took")]
@@ -132,9 +133,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             "--pictures" => options.pictures = Some(PathBuf::from(value()?)),
             "own" => cases.extend(sets::own()?),
             "generated" => cases.extend(sets::generated()),
-            path => match (path.strip_prefix("real="), path.strip_prefix("next=")) {
-                (Some(folder), _) => cases.extend(sets::real(Path::new(folder), false)?),
-                (_, Some(folder)) => cases.extend(sets::real(Path::new(folder), true)?),
+            path => match path.split_once('=') {
+                Some(("real", folder)) => cases.extend(sets::real(Path::new(folder), 0)?),
+                Some(("next", folder)) => cases.extend(sets::real(Path::new(folder), 1)?),
+                Some(("later", folder)) => cases.extend(sets::real(Path::new(folder), 2)?),
                 _ => {
                     let name = Path::new(path).file_name().unwrap_or_default().to_string_lossy().into_owned();
                     let plan = enfilade::open(path)?.plan().clone();

@@ -50,12 +50,12 @@ const REAL: [(&str, usize); 5] =
     [("houses/r2v", 6), ("houses/archilyse", 4), ("authors/office", 4), ("authors/school", 4), ("kth", 2)];
 
 /// The first plans of each folder by name that open without a finding of severity 'error'; of `kth` the first of each
-/// building. `skipped` of each folder are passed over first: with it, plans that no threshold was chosen by.
-pub fn real(folder: &Path, is_next: bool) -> Result<Vec<Case>, Box<dyn Error>> {
+/// building. So many `rounds` of these are passed over first: with 1 the plans that come after them, with 2 those after these.
+pub fn real(folder: &Path, rounds: usize) -> Result<Vec<Case>, Box<dyn Error>> {
     let mut cases = Vec::new();
     for (source, count) in REAL {
         let mut passed = 0;
-        let skipped = if is_next { count } else { 0 };
+        let skipped = rounds * count;
         for path in files(&folder.join(source))? {
             if passed >= skipped + count {
                 break;

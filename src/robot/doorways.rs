@@ -48,7 +48,7 @@ impl DoorwayOptions {
 impl Default for DoorwayOptions {
     /// The paper's values, plus the test that the floor widens and wide free passages.
     fn default() -> Self {
-        Self { must_widen: true, widest_m: 2.2, widest_passage_m: 4.0, shortest_jamb_m: 0.15, ..Self::PAPER }
+        Self { must_widen: true, widest_m: 2.2, widest_passage_m: 4.5, shortest_jamb_m: 0.15, ..Self::PAPER }
     }
 }
 
@@ -327,7 +327,7 @@ pub(super) fn is_inside(boundary: &RayGrid, point: Point) -> bool {
 }
 
 /// Maximum depth of a doorway in metres: the thickest plausible wall, with a margin.
-const DEEPEST_M: f64 = 0.65;
+pub(super) const DEEPEST_M: f64 = 0.65;
 
 /// How much wider than a doorway the floor beside it must be, in metres and as a share of its width.
 const WIDER_M: f64 = 0.06;
@@ -337,7 +337,7 @@ const WIDER_SHARE: f64 = 0.1;
 const WIDE_WIDER_SHARE: f64 = 0.2;
 
 /// Maximum length of rays along a gap, in metres.
-const WIDTH_LIMIT_M: f64 = 6.0;
+pub(super) const WIDTH_LIMIT_M: f64 = 6.0;
 
 /// Whether the free floor is wider than the gap to its left and to its right, within the depth of a wall.
 /// Doorways already found count as closed.
@@ -392,7 +392,7 @@ fn jogs(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -> [[bool; 2];
 }
 
 /// Whether two gaps belong to the two faces of one wall, or to the same face.
-fn is_same_doorway(p: Segment, q: Segment) -> bool {
+pub(super) fn is_same_doorway(p: Segment, q: Segment) -> bool {
     let Some(along) = q.vector().unit() else { return false };
     let way = p.midpoint() - q.midpoint();
     let (stretch_from, stretch_to) = crate::geometry::segments::common_stretch(q, p);

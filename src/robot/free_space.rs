@@ -26,6 +26,10 @@ const MOST_BEFORE_HIT_M: f64 = 0.05;
 /// little.
 const OUTLINE_M: f64 = 0.012;
 
+/// How much coarser at most, in metres, with scanners of more noise: else every reading would be a corner, and each look
+/// would cost more than the one before.
+const MOST_COARSER_M: f64 = 0.04;
+
 /// Two neighbouring beams whose readings differ by more than this, in metres, hit different things.
 const JUMP_M: f64 = 0.3;
 
@@ -165,8 +169,10 @@ impl FreeSpace {
             self.remember_hits(scan, map_from_scanner);
             // Not so far that the hit is no longer near.
             let before_hit_m = BEFORE_HIT_M + (3.0 * self.more_noise_m).min(MOST_BEFORE_HIT_M);
-            let outline: Vec<Point> =
-                outline(scan, before_hit_m).into_iter().map(|point| map_from_scanner.apply(point)).collect();
+            let outline: Vec<Point> = outline(scan, before_hit_m, self.outline_m())
+                .into_iter()
+                .map(|point| map_from_scanner.apply(point))
+                .collect();
             if outline.len() >= 3 {
                 rings.push(areas::ring(&outline));
             }
@@ -195,10 +201,16 @@ impl FreeSpace {
         }
     }
 
+    /// The tolerance of outlines, in metres.
+    fn outline_m(&self) -> f64 {
+        OUTLINE_M + self.more_noise_m.min(MOST_COARSER_M)
+    }
+
     /// Simplifies outlines and removes shadows.
     fn tidy(&mut self) {
+        let outline_m = self.outline_m();
         let tidied = |ring: &Ring| -> Option<Ring> {
-            let points = simplified_ring(&areas::points(ring), OUTLINE_M);
+            let points = simplified_ring(&areas::points(ring), outline_m);
             (points.len() >= 3).then(|| points.iter().map(|point| [point.x, point.y]).collect())
         };
         let shapes = self.shapes.iter().filter_map(|shape| {
@@ -235,8 +247,8 @@ fn swapped((x, y): (i32, i32)) -> (i32, i32) {
 }
 
 /// The outline of the free space seen by one sweep, in the scanner's frame, starting and ending at the
-/// scanner. It ends `before_hit_m` metres before each hit.
-fn outline(scan: &Scan, before_hit_m: f64) -> Vec<Point> {
+/// scanner. It ends `before_hit_m` metres before each hit and is simplified to `outline_m`.
+fn outline(scan: &Scan, before_hit_m: f64, outline_m: f64) -> Vec<Point> {
     let ray = |beam: usize, range_m: f64| {
         let (sin, cos) = scan.angle_rad(beam).sin_cos();
         Point::new(range_m * cos, range_m * sin)
@@ -271,14 +283,14 @@ fn outline(scan: &Scan, before_hit_m: f64) -> Vec<Point> {
         match last {
             None if beam > 0 => open(&mut outline, None, edge.0),
             Some((before, last_m)) if beam - before > LOST_BEAMS + 1 => {
-                outline.extend(simplified(&run, OUTLINE_M));
+                outline.extend(simplified(&run, outline_m));
                 run.clear();
                 open(&mut outline, Some((before, last_m)), Some((beam, range_m)));
             }
             Some((before, last_m)) if (range_m - last_m).abs() > JUMP_M => {
                 // The floor between the two is known only as far as the nearer one.
                 let corner = if range_m > last_m { ray(beam, last_m) } else { ray(before, range_m) };
-                outline.extend(simplified(&run, OUTLINE_M));
+                outline.extend(simplified(&run, outline_m));
                 outline.push(corner);
                 run.clear();
             }
@@ -287,7 +299,7 @@ fn outline(scan: &Scan, before_hit_m: f64) -> Vec<Point> {
         run.push(ray(beam, range_m));
         last = Some((beam, range_m));
     }
-    outline.extend(simplified(&run, OUTLINE_M));
+    outline.extend(simplified(&run, outline_m));
     match edge.1 {
         Some((beam, _)) if beam + 1 < beams => open(&mut outline, edge.1, None),
         _ => {}

@@ -38,6 +38,7 @@ pub mod score;
 pub mod segment;
 pub mod semantics;
 pub mod split_and_merge;
+mod width_changes;
 pub mod world;
 
 pub use explore::{Exploration, RobotOptions};

@@ -9,6 +9,7 @@ use super::RayGrid;
 use super::doorways::{Doorway, DoorwayOptions, Gaps, Groups, gaps, is_inside, walls};
 use super::furniture::rectangle;
 use super::quadrilaterals::mean_quadrilateral_m2;
+use super::width_changes::is_width_change;
 use crate::base::random::Random;
 use crate::geometry::areas::{self, Ring, Shapes};
 use crate::geometry::runs::{self, Axes};
@@ -89,18 +90,33 @@ pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) ->
         }
         // Two doorways with only a doorstep between them are one: keep the narrower.
         match between_two(&found, &sides, &pieces, options) {
-            Some(wider) => found.remove(wider),
-            None => break (pieces, sides),
-        };
+            Some(wider) => {
+                found.remove(wider);
+                continue;
+            }
+            None if !options.doorways.must_widen => break (pieces, sides),
+            None => {}
+        }
+        let passages = found.iter().filter(|doorway| !is_width_change(doorway, &boundary, &found)).cloned();
+        let passages: Vec<Doorway> = passages.collect();
+        if passages.len() == found.len() {
+            break (pieces, sides);
+        }
+        found = passages;
     };
     if close_mouths(&mouths, &mut found, &mut pieces, options) {
         sides = sides_of(&found, &pieces);
     }
-    let (points, sights, group_of) = scatter(&pieces, options);
+    let count = pieces.len();
+    pieces = pieces.into_iter().flat_map(without_leaks).collect();
+    if pieces.len() > count {
+        sides = sides_of(&found, &pieces);
+    }
+    let (points, sights, piece_of) = scatter(&pieces, options);
     let mut room_of_piece: Vec<Option<usize>> = vec![None; pieces.len()];
     let mut rooms: Vec<FoundRoom> = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
-        let within: Vec<usize> = (0..points.len()).filter(|&i| group_of[i] == index).collect();
+        let within: Vec<usize> = (0..points.len()).filter(|&i| piece_of[i] == index).collect();
         let leads_somewhere = sides.iter().flatten().any(|&side| side == Some(index));
         // Its doorway may have been missed; what is small leaked past a wall.
         let is_large = area_m2(piece) > LONE_ROOM_M2 && options.doorways.must_widen;
@@ -350,28 +366,31 @@ fn scatter(pieces: &[Vec<Ring>], options: &RoomOptions) -> (Vec<Point>, Vec<[usi
         }
     }
     pairs.sort_by(|p, q| p.0.total_cmp(&q.0).then((p.1, p.2).cmp(&(q.1, q.2))));
+    let boxes: Vec<Bounds> = pieces.iter().map(|piece| piece_bounds(piece)).collect();
+    let piece_at = |point: Point| (0..pieces.len()).find(|&p| boxes[p].contains(point) && contains(&pieces[p], point));
+    let piece_of: Vec<usize> = points.iter().map(|&point| piece_at(point).unwrap_or(usize::MAX)).collect();
     let mut groups = Groups::new(points.len());
     let mut sights = Vec::new();
     for (_, i, j) in pairs {
-        if groups.root(i) != groups.root(j) && !grid.blocks(points[i], points[j]) {
+        // Pieces may touch in a point, through which a sight would slip.
+        if piece_of[i] == piece_of[j] && groups.root(i) != groups.root(j) && !grid.blocks(points[i], points[j]) {
             groups.join(i, j);
             sights.push([i, j]);
         }
     }
-    let boxes: Vec<Bounds> = pieces.iter().map(|piece| piece_bounds(piece)).collect();
-    let piece_at = |point: Point| (0..pieces.len()).find(|&p| boxes[p].contains(point) && contains(&pieces[p], point));
-    let mut piece_of_root: Vec<Option<usize>> = vec![None; points.len()];
-    let group_of = (0..points.len())
-        .map(|i| {
-            let root = groups.root(i);
-            *piece_of_root[root].get_or_insert_with(|| piece_at(points[root]).unwrap_or(usize::MAX))
-        })
-        .collect();
-    (points, sights, group_of)
+    (points, sights, piece_of)
 }
 
 /// A piece of free space without a doorway that is larger, in m², is a room all the same.
 const LONE_ROOM_M2: f64 = 3.0;
+
+/// A piece without what is narrower than a room's narrowest part, where that leaves several that could be rooms: floor seen
+/// past the edge of a wall may join two of them.
+fn without_leaks(piece: Vec<Ring>) -> Vec<Vec<Ring>> {
+    let parts = areas::opening(&vec![piece.clone()], NARROW_M);
+    let large: Vec<Vec<Ring>> = parts.into_iter().filter(|part| area_m2(part) > LONE_ROOM_M2).collect();
+    if large.len() > 1 { large } else { vec![piece] }
+}
 
 /// Smaller holes are furniture and columns, in m²; a courtyard is larger.
 const LARGEST_FURNITURE_M2: f64 = 4.0;
@@ -400,4 +419,34 @@ fn room(piece: &[Ring], points: Vec<usize>, options: &RoomOptions) -> Option<Fou
     }
     let axes = runs::axes(&outer, &holes);
     Some(FoundRoom { area_m2: mean_quadrilateral_m2(&outer), outer, holes, axes, points })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_leak_past_a_wall_joins_no_rooms() {
+        // Two rooms with a slit of this width between them.
+        let joined = |slit_m: f64| -> Vec<Ring> {
+            let (low, high) = (1.0, 1.0 + slit_m);
+            let ring = vec![
+                [0.0, 0.0],
+                [3.0, 0.0],
+                [3.0, low],
+                [3.1, low],
+                [3.1, 0.0],
+                [6.0, 0.0],
+                [6.0, 3.0],
+                [3.1, 3.0],
+                [3.1, high],
+                [3.0, high],
+                [3.0, 3.0],
+                [0.0, 3.0],
+            ];
+            vec![ring]
+        };
+        assert_eq!(without_leaks(joined(0.1)).len(), 2);
+        assert_eq!(without_leaks(joined(0.5)), [joined(0.5)]);
+    }
 }
