@@ -57,7 +57,7 @@ pub struct Validation {
     pub notes: Vec<String>,
     /// What was said of each room out of fold.
     pub predictions: Vec<Prediction>,
-    /// The same of the committees that take part in blends.
+    /// The same of the committees that take part in blends; empty unless all algorithms were asked for, [`HONEST`].
     pub by_committees: Vec<Prediction>,
 }
 
@@ -105,8 +105,9 @@ pub fn validate_telling(
             experiment.sets[of].name == set && algorithms.contains(&algorithm) && conditions.contains(&all[condition])
         }
         Task::Committee { set: of, .. } => {
-            let is_wanted = algorithms.contains(&Algorithm::PERCEPTRON) && conditions.contains(&HONEST);
-            experiment.sets[of].name == set && is_wanted
+            // Blends are made where all learn, and tested on buildings never seen.
+            let is_for_blend = algorithms.len() == Algorithm::ALL.len() && conditions.contains(&HONEST);
+            experiment.sets[of].name == set && is_for_blend
         }
         Task::Foreign { .. }
         | Task::Point { .. }
