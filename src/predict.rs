@@ -9,7 +9,7 @@ use std::sync::{Arc, OnceLock};
 
 use crate::base::units::Units;
 use crate::base::wording::{count, sentence};
-use crate::classify::blend::Opinions;
+use crate::classify::blend::{Earlier, Opinions};
 use crate::classify::explain::{NearRoom, Reason};
 use crate::classify::in_plan::{self, InPlan};
 use crate::classify::joint::FirstRound;
@@ -375,9 +375,17 @@ impl Predictions {
                 (NeighbourLabels::Predicted, of_plan(distributions), Origin::Joint(Box::new(round)))
             }
             PlanClassifier::Blend(blend) => {
-                let before =
-                    before.and_then(|it| if let Origin::Blend(said) = it { Some(said.as_ref()) } else { None });
-                let before = before.zip(earlier.map(|earlier| network.looks_like(&earlier.network)));
+                let before = match after {
+                    After::Edit(before) => match &before.origin {
+                        Origin::Blend(said) => Some(Earlier {
+                            opinions: said,
+                            is_by_same_blend: Arc::ptr_eq(&before.model, &model),
+                            looks_same: network.looks_like(&before.network),
+                        }),
+                        Origin::Each(_) | Origin::Joint(_) => None,
+                    },
+                    After::Nothing | After::Start => None,
+                };
                 let opinions = if is_kept {
                     blend.opinions_after(&network, known, before)
                 } else {

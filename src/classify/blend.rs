@@ -99,6 +99,13 @@ pub enum By {
     },
 }
 
+impl By {
+    /// Whether it is the same model, in memory.
+    fn is(&self, other: &Self) -> bool {
+        matches!((self, other), (Self::Model(model), Self::Model(other)) if Arc::ptr_eq(model, other))
+    }
+}
+
 impl Part {
     /// The classifier; `None` if the model is a blend.
     fn kind(&self) -> Option<Kind<'_>> {
@@ -137,6 +144,16 @@ pub struct Opinions {
     pub distributions: Vec<Distribution>,
 }
 
+/// What was said of a plan before an edit.
+#[derive(Clone, Copy, Debug)]
+pub struct Earlier<'a> {
+    pub opinions: &'a Opinions,
+    /// Whether the same blend said it; else only what their parts have in common is of use.
+    pub is_by_same_blend: bool,
+    /// Whether the rooms look now as they did then ([`RoomNetwork::looks_like`]).
+    pub looks_same: bool,
+}
+
 /// What the parts say, which knows no labels.
 #[derive(Debug)]
 struct Heard {
@@ -145,6 +162,8 @@ struct Heard {
     of_parts: Vec<Vec<Distribution>>,
     /// For each part that is a joint classifier, its first round: where explanations start.
     rounds: Vec<Option<FirstRound>>,
+    /// Who answered for each part.
+    by: Vec<By>,
     /// For each part that looks at each room by itself, what it said, for the next plan.
     said: Vec<Option<in_plan::Said>>,
     /// The mean of the parts.
@@ -206,26 +225,30 @@ impl Blend {
         self.together(Arc::new(heard), network, known, None)
     }
 
-    /// The same of the plan after an edit, to the last bit; `before` is what this blend said of the plan before it, by this
-    /// function too, and whether the rooms look as they did then ([`RoomNetwork::looks_like`]).
+    /// The same of the plan after an edit, to the last bit; `before` is what was said of the plan before it, by this function too.
     pub fn opinions_after(
         &self,
         network: &RoomNetwork,
         known: &[Option<Label>],
-        before: Option<(&Opinions, bool)>,
+        before: Option<Earlier<'_>>,
     ) -> Opinions {
-        if let Some((before, true)) = before {
-            return self.together(before.heard.clone(), network, known, Some((before, true)));
+        let same = before.filter(|before| before.is_by_same_blend);
+        if let Some(Earlier { opinions, looks_same: true, .. }) = same {
+            return self.together(opinions.heard.clone(), network, known, Some((opinions, true)));
         }
-        let before = before.map(|(before, _)| before);
-        let heard_before = before.map(|before| before.heard.as_ref());
+        let before = before.map(|before| before.opinions);
+        let heard_before = same.map(|same| same.opinions.heard.as_ref());
+        // A model of all typologies takes part in other blends too.
+        let round_before = |by: &By| {
+            let heard = &before?.heard;
+            heard.rounds.iter().zip(&heard.by).find(|(_, of)| of.is(by))?.0.as_ref()
+        };
         let (mut of_parts, mut rounds, mut said) = (Vec::new(), Vec::<Option<FirstRound>>::new(), Vec::new());
         for (index, part) in self.parts.iter().enumerate() {
             match part.kind() {
                 Some(Kind::Joint(joint)) => {
                     let other = rounds.iter().flatten().next();
-                    let before = heard_before.and_then(|before| before.rounds.get(index)?.as_ref());
-                    let (round, distributions) = joint.predict_after(network, &[], other, before);
+                    let (round, distributions) = joint.predict_after(network, &[], other, round_before(&part.by));
                     of_parts.push(distributions);
                     rounds.push(Some(round));
                     said.push(None);
@@ -273,7 +296,8 @@ impl Blend {
                 Distribution::mean(&of_room, &weights).at_temperature(self.temperature)
             })
             .collect();
-        Heard { rooms, of_parts, rounds, said, means }
+        let by = self.parts.iter().map(|part| part.by.clone()).collect();
+        Heard { rooms, of_parts, rounds, by, said, means }
     }
 
     fn together(
@@ -527,8 +551,19 @@ mod tests {
         let opinions = read.opinions(&network, &[]);
         assert_eq!(opinions.distributions, blend.opinions(&network, &[]).distributions);
         let first = read.opinions_after(&network, &[], None);
-        let second = read.opinions_after(&network, &[], Some((&first, false)));
+        let after = |opinions, is_by_same_blend| Some(Earlier { opinions, is_by_same_blend, looks_same: false });
+        let second = read.opinions_after(&network, &[], after(&first, true));
         assert_eq!((&first.distributions, &second.distributions), (&opinions.distributions, &opinions.distributions));
+        // After another blend, which has a part in common.
+        let PlanClassifier::Blend(other) = &Models::bundled().named("school-blend").unwrap().unwrap().classifier else {
+            panic!("no blend");
+        };
+        let has_part = |blend: &Blend, by: &By| blend.parts.iter().any(|part| part.by.is(by));
+        assert_eq!(blend.parts.iter().filter(|part| has_part(other, &part.by)).count(), 1);
+        let foreign = other.opinions_after(&network, &[], after(&first, false));
+        assert_eq!(foreign.distributions, other.opinions(&network, &[]).distributions);
+        let back = blend.opinions_after(&network, &[], after(&foreign, false));
+        assert_eq!(back.distributions, opinions.distributions);
         let why = read.why(&opinions, &network, &[], 0, Units::Metric).unwrap();
         assert!(why.conclusion.contains("multilayer perceptrons of offices ("), "{}", why.conclusion);
 
