@@ -317,7 +317,7 @@ fn predictions_as_json() {
     assert_eq!(said["agreeing_rooms"].as_u64(), Some(agreeing));
     assert!(agreeing.abs_diff(25) <= 2, "{agreeing} agree, not about 25");
     let called = |name: &str| rooms.iter().find(|room| room["room"] == name).unwrap();
-    for (name, label) in [("Corridor east", "C"), ("Phone 1", "S"), ("Meeting 2", "M"), ("Lobby", "H")] {
+    for (name, label) in [("Corridor east", "C"), ("Phone 1", "S"), ("Meeting 2", "M"), ("Direction", "B")] {
         assert_eq!(called(name)["predicted"], label, "{name}");
     }
     let closet = called("Accessible WC");
