@@ -376,13 +376,11 @@ impl Predictions {
             }
             PlanClassifier::Blend(blend) => {
                 let before = match after {
-                    After::Edit(before) => match &before.origin {
-                        Origin::Blend(said) => Some(Earlier {
-                            opinions: said,
-                            is_by_same_blend: Arc::ptr_eq(&before.model, &model),
-                            looks_same: network.looks_like(&before.network),
-                        }),
-                        Origin::Each(_) | Origin::Joint(_) => None,
+                    After::Edit(before) => match (&before.model.classifier, &before.origin) {
+                        (PlanClassifier::Blend(blend), Origin::Blend(opinions)) => {
+                            Some(Earlier { blend, opinions, looks_same: network.looks_like(&before.network) })
+                        }
+                        _ => None,
                     },
                     After::Nothing | After::Start => None,
                 };

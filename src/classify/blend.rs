@@ -147,9 +147,9 @@ pub struct Opinions {
 /// What was said of a plan before an edit.
 #[derive(Clone, Copy, Debug)]
 pub struct Earlier<'a> {
+    /// Who said it; of another blend only what it has in common is of use.
+    pub blend: &'a Blend,
     pub opinions: &'a Opinions,
-    /// Whether the same blend said it; else only what their parts have in common is of use.
-    pub is_by_same_blend: bool,
     /// Whether the rooms look now as they did then ([`RoomNetwork::looks_like`]).
     pub looks_same: bool,
 }
@@ -162,8 +162,6 @@ struct Heard {
     of_parts: Vec<Vec<Distribution>>,
     /// For each part that is a joint classifier, its first round: where explanations start.
     rounds: Vec<Option<FirstRound>>,
-    /// Who answered for each part.
-    by: Vec<By>,
     /// For each part that looks at each room by itself, what it said, for the next plan.
     said: Vec<Option<in_plan::Said>>,
     /// The mean of the parts.
@@ -232,17 +230,16 @@ impl Blend {
         known: &[Option<Label>],
         before: Option<Earlier<'_>>,
     ) -> Opinions {
-        let same = before.filter(|before| before.is_by_same_blend);
+        let same = before.filter(|before| std::ptr::eq(before.blend, self));
         if let Some(Earlier { opinions, looks_same: true, .. }) = same {
             return self.together(opinions.heard.clone(), network, known, Some((opinions, true)));
         }
-        let before = before.map(|before| before.opinions);
-        let heard_before = same.map(|same| same.opinions.heard.as_ref());
         // A model of all typologies takes part in other blends too.
         let round_before = |by: &By| {
-            let heard = &before?.heard;
-            heard.rounds.iter().zip(&heard.by).find(|(_, of)| of.is(by))?.0.as_ref()
+            let Earlier { blend, opinions, .. } = before?;
+            blend.parts.iter().zip(&opinions.heard.rounds).find(|(part, _)| part.by.is(by))?.1.as_ref()
         };
+        let heard_before = same.map(|same| same.opinions.heard.as_ref());
         let (mut of_parts, mut rounds, mut said) = (Vec::new(), Vec::<Option<FirstRound>>::new(), Vec::new());
         for (index, part) in self.parts.iter().enumerate() {
             match part.kind() {
@@ -265,7 +262,7 @@ impl Blend {
             }
         }
         let heard = self.heard(of_parts, rounds, said, network, heard_before);
-        self.together(Arc::new(heard), network, known, before.map(|before| (before, false)))
+        self.together(Arc::new(heard), network, known, before.map(|before| (before.opinions, false)))
     }
 
     fn heard(
@@ -296,8 +293,7 @@ impl Blend {
                 Distribution::mean(&of_room, &weights).at_temperature(self.temperature)
             })
             .collect();
-        let by = self.parts.iter().map(|part| part.by.clone()).collect();
-        Heard { rooms, of_parts, rounds, by, said, means }
+        Heard { rooms, of_parts, rounds, said, means }
     }
 
     fn together(
@@ -538,6 +534,10 @@ mod tests {
         assert!(Blend::new(Vec::new(), 1.0).is_none() && Blend::new(vec![part("office-mlp", 0.0)], 1.0).is_none());
     }
 
+    fn after<'a>(blend: &'a Blend, opinions: &'a Opinions) -> Option<Earlier<'a>> {
+        Some(Earlier { blend, opinions, looks_same: false })
+    }
+
     #[test]
     fn a_committee_is_in_the_blend_itself_and_answers_after_an_edit_as_before() {
         let PlanClassifier::Blend(blend) = &Models::bundled().named("office-blend").unwrap().unwrap().classifier else {
@@ -551,8 +551,7 @@ mod tests {
         let opinions = read.opinions(&network, &[]);
         assert_eq!(opinions.distributions, blend.opinions(&network, &[]).distributions);
         let first = read.opinions_after(&network, &[], None);
-        let after = |opinions, is_by_same_blend| Some(Earlier { opinions, is_by_same_blend, looks_same: false });
-        let second = read.opinions_after(&network, &[], after(&first, true));
+        let second = read.opinions_after(&network, &[], after(&read, &first));
         assert_eq!((&first.distributions, &second.distributions), (&opinions.distributions, &opinions.distributions));
         // After another blend, which has a part in common.
         let PlanClassifier::Blend(other) = &Models::bundled().named("school-blend").unwrap().unwrap().classifier else {
@@ -560,9 +559,9 @@ mod tests {
         };
         let has_part = |blend: &Blend, by: &By| blend.parts.iter().any(|part| part.by.is(by));
         assert_eq!(blend.parts.iter().filter(|part| has_part(other, &part.by)).count(), 1);
-        let foreign = other.opinions_after(&network, &[], after(&first, false));
+        let foreign = other.opinions_after(&network, &[], after(&read, &first));
         assert_eq!(foreign.distributions, other.opinions(&network, &[]).distributions);
-        let back = blend.opinions_after(&network, &[], after(&foreign, false));
+        let back = blend.opinions_after(&network, &[], after(other, &foreign));
         assert_eq!(back.distributions, opinions.distributions);
         let why = read.why(&opinions, &network, &[], 0, Units::Metric).unwrap();
         assert!(why.conclusion.contains("multilayer perceptrons of offices ("), "{}", why.conclusion);

@@ -207,9 +207,9 @@ fn form_of(shape: &RoomShape, room: &RoomAnalysis) -> Option<Form> {
     room.features.map(|features| Form::new(shape, features.area_m2))
 }
 
-/// Who gave a room its label; a prediction is none.
+/// Who gave a room its own label.
 fn origin_of(room: &Room) -> Option<LabelOrigin> {
-    room.label.map(|label| label.origin).filter(|&origin| origin != LabelOrigin::Prediction)
+    room.given_label().map(|given| given.origin)
 }
 
 impl RoomNetwork {

@@ -5,7 +5,7 @@ use super::{Features, NeighbourLabels};
 use crate::features::temporary;
 use crate::geometry::runs::{self, Axes};
 use crate::labels::{Colour, Label, Meaning, Schemes};
-use crate::plan::{Joint, LabelOrigin, Plan, Room, RoomId};
+use crate::plan::{Joint, Plan, Room, RoomId};
 use crate::topology::wall_bodies::WallBodies;
 use crate::topology::{Graph, NetRoom, RoomShape, RoomShapes, net_rooms_between};
 
@@ -29,8 +29,7 @@ impl RoomStatus {
 
     /// By the room's own label.
     fn given(room: &Room) -> Option<Self> {
-        let given = room.label.filter(|given| given.origin != LabelOrigin::Prediction)?;
-        Some(Self::Labelled(given.label))
+        room.given_label().map(|given| Self::Labelled(given.label))
     }
 
     /// By the scheme.

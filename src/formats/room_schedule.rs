@@ -7,7 +7,7 @@ use crate::dataset::csv::{Guard, cell};
 use crate::features::{NeighbourLabels, analyse};
 use crate::labels::{Label, Schemes};
 use crate::plan::titles::numbers_of_unnamed;
-use crate::plan::{LabelOrigin, Plan, Room, RoomId};
+use crate::plan::{Plan, Room, RoomId};
 
 /// The schedule of rooms.
 pub const FORMAT: Format = Format {
@@ -54,11 +54,6 @@ impl Exporter for RoomSchedule {
     }
 }
 
-/// Who gave a room its own label; a prediction that nobody accepted is none.
-fn origin_of(room: &Room) -> Option<LabelOrigin> {
-    room.label.map(|given| given.origin).filter(|origin| *origin != LabelOrigin::Prediction)
-}
-
 /// The rooms of a plan by name, those numbered in the order of their numbers.
 fn table(plan: &Plan, schemes: &Schemes) -> Result<Vec<u8>, Box<dyn std::error::Error>> {
     let analysis = analyse(plan, schemes, NeighbourLabels::True);
@@ -68,9 +63,9 @@ fn table(plan: &Plan, schemes: &Schemes) -> Result<Vec<u8>, Box<dyn std::error::
         let (room, analysed) = (plan.room(id)?, analysis.room(id)?);
         let label = analysed.status.label().map(Label::name).unwrap_or_default();
         // As in a dataset.
-        let origin = match (analysed.status.label(), origin_of(room)) {
+        let origin = match (analysed.status.label(), room.given_label()) {
             (None, _) => "",
-            (Some(_), Some(origin)) => origin.name(),
+            (Some(_), Some(given)) => given.origin.name(),
             (Some(_), None) => BY_SCHEME,
         };
         let texts = [&plan.meta().storey, &key, &room.function, label, origin].map(|text| Guard::On.cell(text));

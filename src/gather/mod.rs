@@ -57,9 +57,7 @@ impl PlansRead {
         }
         left_out
     }
-}
 
-impl PlansRead {
     /// The edges of all buildings' graphs: the openings between rooms, plan by plan, then stairs and lifts that lie over each
     /// other in storeys of one building that follow each other.
     pub fn edges(&self) -> Vec<Edge> {

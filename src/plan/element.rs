@@ -52,6 +52,11 @@ impl Room {
         std::iter::once(&self.outer).chain(&self.holes)
     }
 
+    /// Its own label; a prediction that nobody has accepted is none.
+    pub fn given_label(&self) -> Option<RoomLabel> {
+        self.label.filter(|given| given.origin != LabelOrigin::Prediction)
+    }
+
     /// Whether the room has a boundary at all.
     pub fn has_boundary(&self) -> bool {
         !self.outer.is_empty()

@@ -202,7 +202,7 @@ impl Canvas {
         let rect = rulers::canvas_rect(session, ui.available_rect_before_wrap());
         let fresh = document.derived();
         // The results for an earlier plan are better than nothing.
-        let shown = fresh.or(document.last_derived().map(|(_, derived)| derived));
+        let shown = document.derived_or_last().map(|(derived, _)| derived);
         self.update_camera(rect, document, shown.map(Arc::as_ref), backdrop);
         let response = ui.interact(rect, canvas_id(), Sense::click_and_drag());
         self.take_pointer(ui, &response, &self.view(rect, ui.pixels_per_point()));

@@ -313,7 +313,9 @@ fn heading(app: &mut App, ui: &mut Ui, totals: &Totals) -> Option<Act> {
     let folder = app.session.workspace.as_ref().map(|workspace| workspace.now.folder().to_owned())?;
     let shown = app.session.shown_path(&folder);
     let name = folder.file_name().map_or_else(|| shown.clone(), |name| name.to_string_lossy().into_owned());
-    let indexing = app.session.changing_shown().or_else(|| app.session.indexing_shown());
+    let indexing = app.session.indexing_shown();
+    let is_indexing = indexing.is_some();
+    let running = app.session.changing_shown().or(indexing);
     let OpenWorkspace { view, .. } = app.session.workspace.as_mut()?;
     ui.horizontal(|ui| {
         ui.label(strong(name, theme::TITLE)).on_hover_text(shown);
@@ -351,8 +353,8 @@ fn heading(app: &mut App, ui: &mut Ui, totals: &Totals) -> Option<Act> {
         });
     });
     ui.horizontal(|ui| {
-        caption(ui, said_of(totals, app.session.indexing_shown().is_some()));
-        if let Some((share, said)) = indexing {
+        caption(ui, said_of(totals, is_indexing));
+        if let Some((share, said)) = running {
             right(ui, |ui| {
                 if share > 0.0 {
                     ui.allocate_ui(vec2(120.0, 20.0), |ui| progress_bar(ui, share, &said));

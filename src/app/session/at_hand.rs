@@ -226,7 +226,7 @@ impl Session {
 
     /// How many of how many files have been read.
     pub(crate) fn rooms_progress(&self) -> Option<(usize, usize)> {
-        self.jobs.progress().into_iter().find(|(name, _)| *name == JOB)?.1
+        self.jobs.progress_of(JOB)
     }
 
     fn input_of(&self, source: &Source) -> Input {

@@ -86,7 +86,7 @@ impl Session {
 
     /// How many of how many plans have been read.
     pub(crate) fn dataset_progress(&self) -> Option<(usize, usize)> {
-        self.jobs.progress().into_iter().find(|(name, _)| *name == JOB)?.1
+        self.jobs.progress_of(JOB)
     }
 
     /// Gives up making the dataset: nothing is written.

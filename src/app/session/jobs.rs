@@ -387,10 +387,14 @@ impl Jobs {
         wanted.map(|running| (running.kind.name, running.watched.progress())).collect()
     }
 
+    /// The progress of the running job of a name, if one runs and reports it.
+    pub(crate) fn progress_of(&self, name: &str) -> Option<(usize, usize)> {
+        self.progress().into_iter().find(|(of, _)| *of == name)?.1
+    }
+
     /// The share of the running job of a name that is done, 0..=1; 0 where that is not known.
     pub(crate) fn share_of(&self, name: &str) -> f64 {
-        let of_name = self.progress().into_iter().find(|(of, _)| *of == name);
-        of_name.and_then(|(_, progress)| progress).map_or(0.0, |(done, count)| done as f64 / count as f64)
+        self.progress_of(name).map_or(0.0, |(done, count)| done as f64 / count as f64)
     }
 
     /// The jobs that ended since the last call.

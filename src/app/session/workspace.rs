@@ -197,8 +197,7 @@ impl Session {
             return Some((0.0, indexing.words(0)));
         }
         // What the job that runs has done so far.
-        let of_job = self.jobs.progress().into_iter().find(|(name, _)| *name == JOB);
-        let more = of_job.and_then(|(_, progress)| progress).map_or(0, |(done, _)| done);
+        let more = self.jobs.progress_of(JOB).map_or(0, |(done, _)| done);
         let more = more.min(indexing.count.saturating_sub(indexing.done));
         Some(((indexing.done + more) as f64 / indexing.count.max(1) as f64, indexing.words(more)))
     }

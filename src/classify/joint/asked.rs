@@ -55,7 +55,7 @@ pub(super) const MOST_NODES: usize = 1 << FEATURE_AT;
 /// More rooms than this are not asked about together: what is known of them stays in the processor's second memory.
 const MOST_TOGETHER: usize = 4096;
 
-/// Fewer are not worth another thread: to ask about them takes a tenth of a millisecond.
+/// Fewer are not worth another thread: to ask about them takes a fraction of a millisecond.
 const WORTH_A_THREAD: usize = 64;
 
 /// What a forest said of a room, and for which features it still says so.
@@ -100,6 +100,15 @@ impl Columns {
     fn of(&self, feature: usize) -> &[f32] {
         &self.values[feature * self.rooms..(feature + 1) * self.rooms]
     }
+
+    /// Lowers the numbers of some rooms to a number.
+    fn lower(&mut self, feature: usize, rooms: &[u32], number: f32) {
+        let column = &mut self.values[feature * self.rooms..(feature + 1) * self.rooms];
+        for &room in rooms {
+            let bound = &mut column[room as usize];
+            *bound = if number < *bound { number } else { *bound };
+        }
+    }
 }
 
 /// How far each feature of some rooms may go, like [`Bounds`], but feature by feature.
@@ -118,16 +127,6 @@ impl BoundColumns {
         let of =
             |columns: &Columns| columns.values.iter().skip(room).step_by(columns.rooms).copied().collect::<Vec<_>>();
         [of(&self.high), of(&self.low)].concat().into_boxed_slice()
-    }
-}
-
-/// Lowers the numbers of some rooms to a number.
-fn lower(columns: &mut Columns, feature: usize, rooms: &[u32], number: f32) {
-    let rooms_of_all = columns.rooms;
-    let column = &mut columns.values[feature * rooms_of_all..(feature + 1) * rooms_of_all];
-    for &room in rooms {
-        let bound = &mut column[room as usize];
-        *bound = if number < *bound { number } else { *bound };
     }
 }
 
@@ -210,8 +209,8 @@ impl Asked {
                 let (from, into) = (&from[rooms.clone()], &mut into[rooms.clone()]);
                 let below = tell_apart(columns.of(feature), at_most, from, into);
                 if let Some(bounds) = &mut bounds {
-                    lower(&mut bounds.high, feature, &into[..below], at_most);
-                    lower(&mut bounds.low, feature, &into[below..], -at_most);
+                    bounds.high.lower(feature, &into[..below], at_most);
+                    bounds.low.lower(feature, &into[below..], -at_most);
                 }
                 let middle = rooms.start + below;
                 for (node, rooms) in [(yes + 1, middle..rooms.end), (yes, rooms.start..middle)] {
