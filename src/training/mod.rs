@@ -270,7 +270,7 @@ fn committee<W: Watcher>(
         let all: Vec<usize> = (0..rows.len()).collect();
         Ok(committee::train(part.networks(), &rows, &part.places(), &all, order.seed, work)?)
     };
-    Ok(watcher.step(&format!("training {set}, committee of perceptrons"), learn)?)
+    Ok(watcher.step(&format!("training on {}: committee of perceptrons", plans_of(set)), learn)?)
 }
 
 /// A classifier that learned from all rooms of a part, and what it learned from.

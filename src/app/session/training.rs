@@ -544,7 +544,9 @@ fn run(at_hand: &AtHand, wish: &Wish, path: &str, teller: &mut Teller<'_>) -> Re
     let methods = training::methods(collection, wish.method)?;
     let each = methods.iter().filter(|method| matches!(method, Method::Each(_))).count();
     let validations = usize::from(each > 0) + usize::from(methods.contains(&Method::Joint));
-    let steps = parts.len() * (methods.len() + if wish.folds > 0 { validations } else { 0 });
+    // A blend has a committee of its own.
+    let committees = usize::from(wish.method.is_none() && !collection.networks().is_empty());
+    let steps = parts.len() * (methods.len() + committees + if wish.folds > 0 { validations } else { 0 });
     with(&teller.live, |live| (live.steps, live.fold_count) = (steps, wish.folds));
     let order = Order {
         method: wish.method,
