@@ -33,7 +33,7 @@ pub fn percent_done(share: f64) -> String {
 
 /// A text in which no line begins with the unit of a number.
 pub fn unbroken(text: &str) -> String {
-    [" %", " m²", " ft²"].iter().fold(text.to_owned(), |text, unit| {
+    [" %", " m²", " sq ft"].iter().fold(text.to_owned(), |text, unit| {
         let kept = unit.replace(' ', "\u{a0}");
         text.replace(unit, &kept)
     })
@@ -83,6 +83,12 @@ pub fn shortened(text: &str, most: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_line_begins_with_a_unit() {
+        let kept = "86\u{a0}% of 16.2\u{a0}m² or 174\u{a0}sq\u{a0}ft";
+        assert_eq!(unbroken("86 % of 16.2 m² or 174 sq ft"), kept);
+    }
 
     #[test]
     fn numbers_read_well() {
