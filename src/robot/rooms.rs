@@ -107,10 +107,12 @@ pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) ->
     if close_mouths(&mouths, &mut found, &mut pieces, options) {
         sides = sides_of(&found, &pieces);
     }
-    let count = pieces.len();
-    pieces = pieces.into_iter().flat_map(without_leaks).collect();
-    if pieces.len() > count {
-        sides = sides_of(&found, &pieces);
+    if options.doorways.must_widen {
+        let count = pieces.len();
+        pieces = pieces.into_iter().flat_map(without_leaks).collect();
+        if pieces.len() > count {
+            sides = sides_of(&found, &pieces);
+        }
     }
     let (points, sights, piece_of) = scatter(&pieces, options);
     let mut room_of_piece: Vec<Option<usize>> = vec![None; pieces.len()];
